@@ -1,0 +1,113 @@
+"""Accelerations from velocities: the equations of motion as other codes state them (compiled).
+
+The state of stommel is momenta; other codes differentiate velocities. Since (v, omega, r_px') is a function of the
+state, its rate is the exact derivative of that function along x', which one complex step gives.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from stommel.dynamics.compilation import compiled, inlined
+from stommel.dynamics.equations import rates
+from stommel.dynamics.inertia import Velocities, momenta, moving_mass_position, velocities
+from stommel.dynamics.state import Actuation, State, Water
+from stommel.dynamics.vectors import Quaternion, Vector, cross
+
+COMPLEX_STEP = 1e-40
+
+
+class Accelerations(NamedTuple):
+    """Rates of the generalised velocities in the body frame, and the inertial velocity."""
+
+    v_dot: Vector
+    """[m/s2]"""
+    omega_dot: Vector
+    """[rad/s2]"""
+    r_px_ddot: float
+    """Of the moving mass along b1 relative to the body [m/s2]; zero in the driven mode."""
+    X_dot: Vector
+    """Velocity in the inertial frame [m/s]."""
+
+
+@inlined
+def state_from_velocities(
+    vehicle: np.record,
+    v: Vector,
+    omega: Vector,
+    X: Vector,
+    Q: Quaternion,
+    r_px: float,
+    V_b: float,
+    actuation: Actuation,
+    water: Water,
+) -> State:
+    """Return the state whose velocities are `v` [m/s] and `omega` [rad/s], the mass moving at `actuation.r_px_dot`."""
+    p, h = momenta(vehicle, v, omega, Q, r_px, V_b, actuation, water)
+    r_p = moving_mass_position(vehicle, r_px, actuation.mu)
+    p_px = vehicle.m_p * (v[0] + cross(omega, r_p)[0] + actuation.r_px_dot)
+    return State(X, Q, p, h, r_px, p_px, V_b)
+
+
+@inlined
+def _step_vector(a, b):  # type: ignore[no-untyped-def]  # a + i h b, a tuple of three
+    h = COMPLEX_STEP
+    return (complex(a[0], h * b[0]), complex(a[1], h * b[1]), complex(a[2], h * b[2]))
+
+
+@inlined
+def stepped(x, x_dot):  # type: ignore[no-untyped-def]  # its result is complex
+    """x + i h x': the state moved by a complex step along its rate."""
+    h = COMPLEX_STEP
+    Q, Q_dot = x.Q, x_dot.Q
+    return State(
+        _step_vector(x.X, x_dot.X),
+        (
+            complex(Q[0], h * Q_dot[0]),
+            complex(Q[1], h * Q_dot[1]),
+            complex(Q[2], h * Q_dot[2]),
+            complex(Q[3], h * Q_dot[3]),
+        ),
+        _step_vector(x.p, x_dot.p),
+        _step_vector(x.h, x_dot.h),
+        complex(x.r_px, h * x_dot.r_px),
+        complex(x.p_px, h * x_dot.p_px),
+        complex(x.V_b, h * x_dot.V_b),
+    )
+
+
+@compiled
+def accelerations(vehicle: np.record, x: State, actuation: Actuation, water: Water, free: bool) -> Accelerations:
+    """Accelerations in the state `x`; rudder, roll and speed of the moving mass and the pump flow stay as they are."""
+    x_dot = rates(vehicle, x, actuation, water, free)
+    eta = velocities(vehicle, stepped(x, x_dot), actuation, water, free)
+    h = COMPLEX_STEP
+    v, omega = eta.v, eta.omega
+    return Accelerations(
+        (v[0].imag / h, v[1].imag / h, v[2].imag / h),
+        (omega[0].imag / h, omega[1].imag / h, omega[2].imag / h),
+        eta.r_px_dot.imag / h,
+        x_dot.X,
+    )
+
+
+@compiled
+def velocities_of(vehicle: np.record, x: State, actuation: Actuation, water: Water, free: bool) -> Velocities:
+    """Generalised velocities of the state `x`."""
+    return velocities(vehicle, x, actuation, water, free)
+
+
+@compiled
+def state_of(
+    vehicle: np.record,
+    v: Vector,
+    omega: Vector,
+    X: Vector,
+    Q: Quaternion,
+    r_px: float,
+    V_b: float,
+    actuation: Actuation,
+    water: Water,
+) -> State:
+    """As `state_from_velocities`, for callers that are not compiled."""
+    return state_from_velocities(vehicle, v, omega, X, Q, r_px, V_b, actuation, water)

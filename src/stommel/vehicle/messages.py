@@ -1,0 +1,110 @@
+"""Turns validation errors into sentences that name the key, the value and what is allowed."""
+
+import difflib
+from collections.abc import Sequence
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+_UNITS = {
+    "kg_m2": "kg m2", "kg_m3": "kg/m3", "kg_m": "kg/m", "kg_s": "kg s", "m_s2": "m/s2", "m_s": "m/s",
+    "mm_s": "mm/s", "ml_s": "ml/s", "deg_s": "deg/s", "per_pa": "1/Pa", "per_k": "1/K", "days": "days", "kg": "kg", "mm": "mm",
+    "ml": "ml", "deg": "degrees", "ah": "A h", "v": "V", "c": "deg C", "m": "m",
+}  # fmt: skip
+
+_RANGES = {
+    "greater_than": ("gt", "greater than {}"),
+    "greater_than_equal": ("ge", "at least {}"),
+    "less_than": ("lt", "less than {}"),
+    "less_than_equal": ("le", "at most {}"),
+}
+
+
+def unit_of(key: str) -> str | None:
+    """Unit that the name of a key ends with, in words, or None."""
+    name = key.rsplit(".", 1)[-1]
+    return next((words for suffix, words in _UNITS.items() if name.endswith("_" + suffix)), None)
+
+
+def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[str, str]]:
+    """Return (key, sentence) for each of the errors, unknown keys first: they often explain the missing ones."""
+    details = sorted(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
+    return [(dotted(detail["loc"]), _sentence(detail, model)) for detail in details]
+
+
+def dotted(location: Sequence[str | int]) -> str:
+    """Key as a user writes it."""
+    return ".".join(str(part) for part in location)
+
+
+def _sentence(detail: ErrorDetails, model: type[BaseModel]) -> str:
+    key, value, kind = dotted(detail["loc"]), detail["input"], detail["type"]
+    if kind == "extra_forbidden":
+        return _unknown(detail["loc"], model)
+    if kind == "missing":
+        unit = unit_of(key)
+        where = f" = <number in {unit}>" if unit else ""
+        return f"{key} is missing; add {key.rsplit('.', 1)[-1]}{where}"
+    if kind == "value_error":
+        return f"{key + ': ' if key else ''}{detail['ctx']['error']}"
+    if kind in _RANGES:
+        constraint, words = _RANGES[kind]
+        crossed = words.format(detail["ctx"][constraint])
+        return f"{key} = {value}: must be {allowed_range(detail['loc'], model) or crossed}"
+    if kind == "finite_number":
+        return f"{key} = {value}: must be a finite number"
+    if kind in ("float_type", "float_parsing", "int_type"):
+        return f"{key} = {value!r}: must be a number"
+    if kind in ("missing_keyword", "model_type", "dict_type", "model_attributes_type"):
+        return f"{key} = {value!r}: must be a table, [{key}]"
+    return f"{key} = {value!r}: {detail['msg'][0].lower()}{detail['msg'][1:]}"
+
+
+def _unknown(location: Sequence[str | int], model: type[BaseModel]) -> str:
+    *parents, name = location
+    known = list(_table_at(parents, model).model_fields)
+    where = f"in [{dotted(parents)}]" if parents else "at the top of the file"
+    near = [key for key in known if key.startswith(f"{name}_")] or difflib.get_close_matches(str(name), known, 1, 0.6)
+    hint = ""
+    if near:
+        unit = unit_of(near[0])
+        hint = f"; did you mean {near[0]}{f' (in {unit})' if unit else ''}?"
+    return f"{dotted(location)}: unknown key {where}{hint} Known keys: {', '.join(known)}"
+
+
+def _table_at(location: Sequence[str | int], model: type[BaseModel]) -> type[BaseModel]:
+    """Follow a location down through nested tables."""
+    for part in location:
+        if isinstance(part, int):
+            continue
+        inside = _models_in(model.model_fields[part].annotation)
+        if not inside:
+            break
+        model = inside[0]
+    return model
+
+
+def _models_in(annotation: Any) -> list[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [model for argument in get_args(annotation) for model in _models_in(argument)]
+
+
+def allowed_range(location: Sequence[str | int], model: type[BaseModel]) -> str:
+    """The range that the field at `location` allows, in words; empty where it has none."""
+    *parents, name = location
+    field = _table_at(parents, model).model_fields.get(str(name))
+    if field is None:
+        return ""
+    constraints = list(field.metadata)
+    for argument in get_args(field.annotation):
+        for extra in getattr(argument, "__metadata__", ()):
+            constraints += getattr(extra, "metadata", [extra])
+    words = []
+    for attribute, text in _RANGES.values():
+        for constraint in constraints:
+            limit = getattr(constraint, attribute, None)
+            if limit is not None:
+                words.append(text.format(f"{limit:g}"))
+    return " and ".join(dict.fromkeys(words))

@@ -50,29 +50,27 @@ def state_from_velocities(
 
 
 @inlined
-def _step_vector(a, b):  # type: ignore[no-untyped-def]  # a + i h b, a tuple of three
-    h = COMPLEX_STEP
-    return (complex(a[0], h * b[0]), complex(a[1], h * b[1]), complex(a[2], h * b[2]))
+def _step(a, b):  # type: ignore[no-untyped-def]  # its result is complex
+    return complex(a, COMPLEX_STEP * b)
 
 
 @inlined
-def stepped(x, x_dot):  # type: ignore[no-untyped-def]  # its result is complex
+def _step_vector(a, b):  # type: ignore[no-untyped-def]  # its result is complex
+    return (_step(a[0], b[0]), _step(a[1], b[1]), _step(a[2], b[2]))
+
+
+@inlined
+def stepped(x: State, x_dot: State) -> State:
     """x + i h x': the state moved by a complex step along its rate."""
-    h = COMPLEX_STEP
     Q, Q_dot = x.Q, x_dot.Q
     return State(
         _step_vector(x.X, x_dot.X),
-        (
-            complex(Q[0], h * Q_dot[0]),
-            complex(Q[1], h * Q_dot[1]),
-            complex(Q[2], h * Q_dot[2]),
-            complex(Q[3], h * Q_dot[3]),
-        ),
+        (_step(Q[0], Q_dot[0]), _step(Q[1], Q_dot[1]), _step(Q[2], Q_dot[2]), _step(Q[3], Q_dot[3])),
         _step_vector(x.p, x_dot.p),
         _step_vector(x.h, x_dot.h),
-        complex(x.r_px, h * x_dot.r_px),
-        complex(x.p_px, h * x_dot.p_px),
-        complex(x.V_b, h * x_dot.V_b),
+        _step(x.r_px, x_dot.r_px),
+        _step(x.p_px, x_dot.p_px),
+        _step(x.V_b, x_dot.V_b),
     )
 
 

@@ -113,9 +113,10 @@ def reachable(vehicle: Vehicle, flights: np.ndarray, codes: np.ndarray) -> np.nd
 def nearest_reachable(
     vehicle: Vehicle, physics: Physics, water: Water, speed: float, theta: float
 ) -> SteadyFlight | None:
-    """Return the reachable wings-level flight nearest to `speed` [m/s] and pitch `theta` [rad], on the same side of level.
+    """Return the reachable wings-level flight nearest to `speed` [m/s] and pitch `theta` [rad], if there is any.
 
-    A grid over all speeds and pitches, then finer grids about the best: reachable regions need be neither convex nor whole.
+    A grid over all speeds and pitches, then finer grids about the best: reachable regions need be neither convex nor
+    whole.
     """
     record = pack(vehicle, physics)
     side = -1.0 if theta <= 0.0 else 1.0

@@ -1,8 +1,8 @@
 """Exact linearisation of the equations of motion about steady flight (compiled).
 
 States as in section 3.2 of the paper, longitudinal (u, w, q, theta), then lateral-directional (v, p, r, phi); inputs
-(r_px, V_b), then (delta_r, mu). Actuators are fixed ("stick-fixed"), the water is still. Each column is one complex step
-through the equations of motion.
+(r_px, V_b), then (delta_r, mu). Actuators are fixed ("stick-fixed"), the water is still. Each column is one complex
+step through the equations of motion.
 """
 
 import numpy as np

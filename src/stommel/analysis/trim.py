@@ -120,9 +120,7 @@ def trim_table(
     rows = []
     for speed in speeds_m_s:
         for pitch in pitches_deg:
-            flight = trim(
-                vehicle, speed_m_s=speed, pitch_deg=pitch, physics=physics, water=water, within_limits=False
-            )
+            flight = trim(vehicle, speed_m_s=speed, pitch_deg=pitch, physics=physics, water=water, within_limits=False)
             rows.append(TrimRow(flight, excesses(vehicle, flight)))
     return rows
 
@@ -197,7 +195,8 @@ def turn(
     turn_rate_rad_s, radius_m
         Exactly one of them; positive to starboard.
     by
-        What steers: the rudder or the rolling mass; the one that the vehicle has if left out, the rudder if it has both.
+        What steers: the rudder or the rolling mass; the one that the vehicle has if left out, the rudder if it has
+        both.
 
     Raises
     ------
@@ -257,9 +256,7 @@ def turn(
     raise UnreachableFlightError(message, reasons)
 
 
-def _unreachable(
-    wanted: str, broken: tuple[Excess, ...], nearest: SteadyFlight | None
-) -> UnreachableFlightError:
+def _unreachable(wanted: str, broken: tuple[Excess, ...], nearest: SteadyFlight | None) -> UnreachableFlightError:
     reasons = tuple(excess.reason for excess in broken)
     return UnreachableFlightError(f"{wanted}: {'; '.join(map(str, broken))}", reasons, nearest)
 
@@ -272,8 +269,8 @@ def _check_speed(speed_m_s: float) -> None:
 def _check_angle(name: str, angle_deg: float) -> None:
     if not abs(angle_deg) < 90.0:
         raise RequestError(
-            f"{name} = {angle_deg:g} deg: must be between -90 and 90 deg, both excluded: straight up or down the moving "
-            "mass has no lever"
+            f"{name} = {angle_deg:g} deg: must be between -90 and 90 deg, both excluded: "
+            "straight up or down the moving mass has no lever"
         )
 
 

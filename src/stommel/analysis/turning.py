@@ -76,8 +76,8 @@ def turn_into(
 ) -> int:
     """Find the turn at `speed` [m/s], pitch `theta` [rad] and `turn_rate` [rad/s], steered by DELTA_R or MU.
 
-    Where `curvature` [1/m] is not zero it is asked for in place of the turn rate. The straight flight is followed as the
-    turn tightens.
+    Where `curvature` [1/m] is not zero it is asked for in place of the turn rate. The straight flight is followed as
+    the turn tightens.
     """
     code = trim_into(vehicle, speed, theta, False, water, z)
     if code != CONVERGED:

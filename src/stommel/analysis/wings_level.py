@@ -149,6 +149,22 @@ def trim_at_ballast(vehicle: np.record, theta: float, V_b: float, water: Water, 
 
 
 @compiled
+def trim_at_incidence(vehicle: np.record, alpha: float, V_b: float, water: Water, z: np.ndarray) -> int:
+    """Find the wings-level flight at the angle of attack `alpha` [rad] that the ballast volume `V_b` [m3] drives."""
+    D = vehicle.K_D0 + vehicle.K_D * alpha * alpha
+    L = vehicle.K_L0 + vehicle.K_L * alpha
+    W = (vehicle.m - water.rho * (vehicle.V_0 + V_b)) * vehicle.g
+    gamma = -math.atan(D / L) if L != 0.0 else -0.5 * math.pi
+    V_square = -W * math.sin(gamma) / D
+    if not V_square > 0.0:
+        return STALLED_ITERATION
+    z[:] = 0.0
+    z[V], z[ALPHA], z[THETA], z[V_B] = math.sqrt(V_square), alpha, gamma + alpha, V_b
+    z[R_PX] = -vehicle.s_0[0] / vehicle.m_p
+    return newton(vehicle, z, np.array([V, THETA, R_PX]), _PITCH_EQUATIONS, water, 0.0, 0.0)
+
+
+@compiled
 def flight_of_settings(vehicle: np.record, r_px: float, V_b: float, water: Water, z: np.ndarray) -> int:
     """Find the wings-level flight of the moving mass at `r_px` [m] and the ballast volume `V_b` [m3].
 

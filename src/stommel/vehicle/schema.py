@@ -65,6 +65,13 @@ class Specification(Table):
     """Speed of Table 1: pitch is varied at this speed."""
     design_pitch_deg: Annotated[float, Field(gt=0, lt=90)] | None = None
     """Magnitude of the pitch of Table 2: speed is varied at this pitch."""
+    shallowest_pitch_deg: Annotated[float, Field(gt=0, lt=90)] = 5.0
+    """Magnitude of the shallowest pitch that the design must fly at the design speed."""
+
+    @model_validator(mode="after")
+    def _pitches_are_ordered(self) -> Self:
+        ordered("shallowest_pitch_deg to pitch_deg", (self.shallowest_pitch_deg, self.pitch_deg))
+        return self
 
 
 class ReferenceWater(Table):

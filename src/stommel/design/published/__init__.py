@@ -1,0 +1,37 @@
+"""Published equilibria of built-in vehicles, to stand beside the computed ones."""
+
+import tomllib
+from dataclasses import dataclass
+from importlib import resources
+
+
+@dataclass(frozen=True)
+class PublishedRow:
+    """One printed row of a trim table."""
+
+    speed_m_s: float
+    pitch_deg: float
+    moving_mass_mm: float
+    angle_of_attack_deg: float
+    ballast_ml: float
+
+
+@dataclass(frozen=True)
+class PublishedTable:
+    """A printed trim table."""
+
+    title: str
+    source: str
+    rows: tuple[PublishedRow, ...]
+
+
+def published_tables(vehicle_file: str) -> tuple[PublishedTable, ...]:
+    """Tables published for the vehicle whose built-in file has this name; empty for any other."""
+    entry = resources.files(__package__) / vehicle_file
+    if not vehicle_file.endswith(".toml") or "/" in vehicle_file or not entry.is_file():
+        return ()
+    tables = tomllib.loads(entry.read_text(encoding="utf-8"))["tables"]
+    return tuple(
+        PublishedTable(table["title"], table["source"], tuple(PublishedRow(*row) for row in table["rows"]))
+        for table in tables
+    )

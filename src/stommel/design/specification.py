@@ -1,0 +1,88 @@
+"""Holds a vehicle against its specification (Table 3 of the paper)."""
+
+from dataclasses import dataclass
+
+from stommel.analysis import UnreachableFlightError, flight_envelope, trim_table
+from stommel.vehicle import Physics, Vehicle
+
+
+@dataclass(frozen=True)
+class SpecificationRow:
+    """One requirement beside what the vehicle has."""
+
+    name: str
+    unit: str
+    required: float
+    found: float | None
+    """None where nothing in the file answers."""
+    met: bool | None
+    """None where it cannot be told."""
+    how: str
+    """Where the found number comes from."""
+
+
+def specification_check(vehicle: Vehicle, physics: Physics) -> tuple[SpecificationRow, ...]:
+    """Hold every requirement of the table [specification] against the vehicle; empty without that table."""
+    d = vehicle.description
+    spec = d.specification
+    if spec is None:
+        return ()
+    rows: list[SpecificationRow] = []
+
+    def at_most(name: str, unit: str, required: float, found: float | None, how: str) -> None:
+        rows.append(SpecificationRow(name, unit, required, found, _compare(found, required, -1), how))
+
+    def at_least(name: str, unit: str, required: float | None, found: float | None, how: str) -> None:
+        if required is not None:
+            rows.append(SpecificationRow(name, unit, required, found, _compare(found, required, +1), how))
+
+    hull, engine, rudder = d.hull, d.actuators.buoyancy, d.actuators.rudder
+    overall = hull.length_m + hull.nose_length_m + hull.tail_length_m if hull else None
+    volume = engine.volume_ml[1] - engine.volume_ml[0] if engine else None
+    at_most("Body length", "m", spec.body_length_m, hull.length_m if hull else None, "hull.length_m")
+    at_most("Overall length", "m", spec.overall_length_m, overall, "hull with nose and tail")
+    at_most("Diameter", "mm", spec.diameter_mm, hull.outer_diameter_mm if hull else None, "hull.outer_diameter_mm")
+    at_most("Mass", "kg", spec.mass_kg, d.mass_kg, "sum of rigid body, moving mass and ballast")
+    at_least("Oil volume", "ml", spec.oil_volume_ml, volume, "range of actuators.buoyancy.volume_ml")
+    at_least("Depth", "m", spec.depth_m, hull.depth_rating_m if hull else None, "hull.depth_rating_m")
+    at_least("Pitch, diving", "deg", spec.pitch_deg, _steepest(vehicle, -1.0, physics), "steepest reachable dive")
+    at_least("Pitch, climbing", "deg", spec.pitch_deg, _steepest(vehicle, +1.0, physics), "steepest reachable climb")
+    at_least("Rudder", "deg", spec.rudder_deg, rudder.travel_deg if rudder else None, "actuators.rudder.travel_deg")
+    at_least("Speed", "m/s", spec.speed_m_s, _greatest_speed(vehicle, physics), "fastest at the design pitch")
+    at_least("Endurance", "days", spec.endurance_days, None, "needs the energy model, which this version lacks")
+    return tuple(rows)
+
+
+def _compare(found: float | None, required: float, sign: int) -> bool | None:
+    slack = 1e-9 * abs(required)
+    return None if found is None else sign * (found - required) >= -slack
+
+
+def _steepest(vehicle: Vehicle, sign: float, physics: Physics) -> float | None:
+    """Steepest pitch magnitude [deg] within the limits at the design speed, by bisection from the design pitch."""
+    spec = vehicle.description.specification
+    if spec is None or spec.design_speed_m_s is None or spec.design_pitch_deg is None:
+        return None
+
+    def works(pitch: float) -> bool:
+        try:
+            (row,) = trim_table(vehicle, speeds_m_s=[speed], pitches_deg=[sign * pitch], physics=physics)
+        except UnreachableFlightError:
+            return False
+        return not row.beyond
+
+    speed, low, high = spec.design_speed_m_s, spec.design_pitch_deg, 89.9
+    if not works(low):
+        return None
+    while high - low > 1e-3:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if works(middle) else (low, middle)
+    return low
+
+
+def _greatest_speed(vehicle: Vehicle, physics: Physics) -> float | None:
+    spec = vehicle.description.specification
+    if spec is None or spec.design_pitch_deg is None or vehicle.description.actuators.buoyancy is None:
+        return None
+    (row,) = flight_envelope(vehicle, pitches_deg=[-spec.design_pitch_deg], physics=physics)
+    return row.fastest.V if row.fastest else None

@@ -1,0 +1,217 @@
+"""A design by dynamic-model analysis: everything sections 2 and 3 of the paper conclude about a vehicle, in one value.
+
+Each part is computed by `stommel.analysis`; this module only asks the questions and keeps the answers together, for the
+terminal, the report and scripts alike.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import degrees
+from typing import TypeVar
+
+import numpy as np
+
+from stommel.analysis import (
+    Authority,
+    BestConditions,
+    EnvelopeRow,
+    Linearization,
+    Modes,
+    RangesNeeded,
+    RootLocus,
+    SteadyFlight,
+    TrimRow,
+    UnreachableFlightError,
+    authority,
+    best_conditions,
+    flight_envelope,
+    linearise,
+    modes,
+    ranges_needed,
+    root_locus,
+    specified_flights,
+    trim,
+    trim_table,
+    turn,
+)
+from stommel.design.published import PublishedRow, published_tables
+from stommel.design.specification import SpecificationRow, specification_check
+from stommel.errors import StommelError
+from stommel.vehicle import PAPER, Physics, Provenance, Vehicle, stated_numbers
+
+Progress = Callable[[str], None]
+_Answer = TypeVar("_Answer")
+
+
+@dataclass(frozen=True)
+class ComparedRow:
+    """A trim beside what was published for it, where anything was."""
+
+    trim: TrimRow
+    published: PublishedRow | None
+
+
+@dataclass(frozen=True)
+class ComparedTable:
+    """A trim table with the published one beside it."""
+
+    title: str
+    source: str
+    rows: tuple[ComparedRow, ...]
+
+    def worst(self) -> tuple[float, float, float] | None:
+        """Largest differences from the published rows: moving mass [mm], angle of attack [deg], ballast [ml]."""
+        pairs = [(row.trim.flight, row.published) for row in self.rows if row.published is not None]
+        if not pairs:
+            return None
+        return (
+            max(abs(flight.r_px * 1e3 - printed.moving_mass_mm) for flight, printed in pairs),
+            max(abs(degrees(flight.alpha) - printed.angle_of_attack_deg) for flight, printed in pairs),
+            max(abs(flight.V_b * 1e6 - printed.ballast_ml) for flight, printed in pairs),
+        )
+
+
+@dataclass(frozen=True)
+class DesignStudy:
+    """What the equations of motion say about a vehicle. Parts that its file cannot answer are None."""
+
+    vehicle: Vehicle
+    physics: Physics
+    design_flight: SteadyFlight
+    """Flight at the design speed and pitch of the specification; modes and loci are about it."""
+    specification: tuple[SpecificationRow, ...]
+    tables: tuple[ComparedTable, ...]
+    envelope: tuple[EnvelopeRow, ...] | None
+    ranges: RangesNeeded | None
+    best: BestConditions | None
+    linear: Linearization
+    modes: Modes
+    authority: Authority
+    loci: tuple[RootLocus, ...]
+    turns: tuple[SteadyFlight, ...]
+    """Steady turns at growing turn rate, steered by what the vehicle has."""
+    numbers: tuple[tuple[str, object, Provenance], ...]
+    """Every number of the vehicle file with its origin."""
+    notes: tuple[str, ...]
+    """Known slips of the sources, and parts of this study that could not be answered, with the reason."""
+
+
+DEFAULT_SPEED_M_S, DEFAULT_PITCH_DEG = 0.4, 35.0
+
+
+def _silent(part: str) -> None:
+    """Show no progress of `part`."""
+
+
+def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progress = _silent) -> DesignStudy:
+    """Analyse a vehicle: trim tables, envelope, ranges, best conditions, modes, root loci, turns, specification.
+
+    Parameters
+    ----------
+    vehicle
+        The glider.
+    physics
+        The paper's model, or what the vehicle file adds to it.
+    progress
+        Called with the name of each part as it begins.
+
+    Raises
+    ------
+    UnreachableFlightError
+        The vehicle cannot fly at its design speed and pitch.
+    """
+    spec = vehicle.description.specification
+    speed = (spec.design_speed_m_s if spec else None) or DEFAULT_SPEED_M_S
+    pitch = (spec.design_pitch_deg if spec else None) or DEFAULT_PITCH_DEG
+    notes = list(vehicle.description.notes)
+
+    def ask(part: str, question: Callable[[], _Answer]) -> _Answer | None:
+        progress(part)
+        try:
+            return question()
+        except StommelError as error:
+            notes.append(f"{part}: not answered, because {error}")
+            return None
+
+    progress("design flight")
+    flight = trim(vehicle, speed_m_s=speed, pitch_deg=-pitch, physics=physics, within_limits=False)
+    linear = linearise(vehicle, flight, physics=physics)
+    tables = ask("trim tables", lambda: _tables(vehicle, physics, speed, pitch)) or ()
+    envelope = ask("flight envelope", lambda: tuple(flight_envelope(vehicle, physics=physics)))
+    ranges = ask("actuator ranges", lambda: ranges_needed(vehicle, specified_flights(vehicle), physics=physics))
+    engine = vehicle.description.actuators.buoyancy
+    ballast_ml = engine.volume_ml[0] if engine else flight.V_b * 1e6
+    best = ask("best conditions", lambda: best_conditions(vehicle, ballast_ml=ballast_ml, physics=physics))
+    loci = tuple(
+        locus
+        for over, start, stop in (("wing_position", 0.0, 0.2), ("rudder_position", 0.5, 1.0))
+        if (
+            locus := ask(
+                f"root locus over {over.replace('_', ' ')}",
+                lambda over=over, start=start, stop=stop: root_locus(  # type: ignore[misc]  # bound now
+                    vehicle, over, start, stop, speed_m_s=speed, pitch_deg=-pitch, physics=physics
+                ),
+            )
+        )
+    )
+    turns = ask("turns", lambda: _turns(vehicle, physics, speed, pitch)) or ()
+    return DesignStudy(
+        vehicle=vehicle,
+        physics=physics,
+        design_flight=flight,
+        specification=specification_check(vehicle, physics),
+        tables=tables,
+        envelope=envelope,
+        ranges=ranges,
+        best=best,
+        linear=linear,
+        modes=modes(linear),
+        authority=authority(linear),
+        loci=loci,
+        turns=turns,
+        numbers=tuple(stated_numbers(vehicle)),
+        notes=tuple(notes),
+    )
+
+
+def _tables(vehicle: Vehicle, physics: Physics, speed: float, pitch: float) -> tuple[ComparedTable, ...]:
+    """Published tables where there are any, otherwise the same two questions at the vehicle's own design flight."""
+    published = published_tables(vehicle.origin)
+    if published:
+        return tuple(
+            ComparedTable(
+                table.title,
+                table.source,
+                tuple(ComparedRow(_row(vehicle, physics, row.speed_m_s, row.pitch_deg), row) for row in table.rows),
+            )
+            for table in published
+        )
+    pitches = [-float(p) for p in range(10, 65, 5)]
+    speeds = [round(speed * share, 6) for share in np.arange(0.25, 2.01, 0.25)]
+    at_speed = trim_table(vehicle, speeds_m_s=[speed], pitches_deg=pitches, physics=physics)
+    at_pitch = trim_table(vehicle, speeds_m_s=speeds, pitches_deg=[-pitch], physics=physics)
+    return tuple(
+        ComparedTable(title, "", tuple(ComparedRow(row, None) for row in rows))
+        for title, rows in (
+            (f"Fixed speed of {speed:g} m/s", at_speed),
+            (f"Fixed pitch of {-pitch:g} deg", at_pitch),
+        )
+    )
+
+
+def _row(vehicle: Vehicle, physics: Physics, speed: float, pitch: float) -> TrimRow:
+    (row,) = trim_table(vehicle, speeds_m_s=[speed], pitches_deg=[pitch], physics=physics)
+    return row
+
+
+def _turns(vehicle: Vehicle, physics: Physics, speed: float, pitch: float) -> tuple[SteadyFlight, ...]:
+    """Turns from gentle to the tightest that the limits allow."""
+    turns: list[SteadyFlight] = []
+    rate = 0.001
+    while len(turns) < 40:
+        try:
+            turns.append(turn(vehicle, speed_m_s=speed, pitch_deg=-pitch, turn_rate_rad_s=rate, physics=physics))
+        except UnreachableFlightError:
+            break
+        rate *= 1.25
+    return tuple(turns)

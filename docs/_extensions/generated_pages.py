@@ -1,0 +1,156 @@
+"""Pages that follow the code: the tables of a vehicle file, and one page of reference a package.
+
+They are written to docs/_generated before Sphinx reads its sources, so that they cannot disagree with the code.
+"""
+
+import ast
+import inspect
+import pkgutil
+import tomllib
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from typing import Any, get_args, get_origin
+
+from pydantic import BaseModel, BeforeValidator
+from sphinx.application import Sphinx
+from sphinx.util import logging
+
+import stommel
+from stommel.vehicle.messages import allowed_range, unit_of
+from stommel.vehicle.schema import VehicleFile
+
+logger = logging.getLogger(__name__)
+
+UNITS = {"coupling_kg_m": "kg m"}
+"""Units that the key's name alone would give wrongly."""
+
+
+def attribute_docstrings(model: type[BaseModel]) -> dict[str, str]:
+    """Return the text that stands below each attribute in the source of a class."""
+    body = ast.parse(inspect.getsource(model)).body[0]
+    assert isinstance(body, ast.ClassDef)
+    found = {}
+    for before, after in zip(body.body, body.body[1:], strict=False):
+        if isinstance(before, ast.AnnAssign) and isinstance(before.target, ast.Name):
+            match after:
+                case ast.Expr(ast.Constant(str(text))):
+                    found[before.target.id] = " ".join(text.split())
+    return found
+
+
+def _models_in(annotation: Any) -> list[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [model for argument in get_args(annotation) for model in _models_in(argument)]
+
+
+def tables(model: type[BaseModel], prefix: str = "") -> Iterator[tuple[str, str, type[BaseModel]]]:
+    """Yield (dotted name, heading as in TOML, model) of every table of a vehicle file, the head of the file first."""
+    many = prefix.endswith("[]")
+    name = prefix.removesuffix("[]")
+    yield name, f"[[{name}]]" if many else f"[{name}]" if name else "Head of the file", model
+    for key, field in model.model_fields.items():
+        for inner in _models_in(field.annotation):
+            repeated = any(get_origin(a) is tuple for a in (field.annotation, *get_args(field.annotation)))
+            yield from tables(inner, f"{name}.{key}".lstrip(".") + ("[]" if repeated else ""))
+
+
+def _kind(field: Any) -> str:
+    """What a value looks like, where it is not one number."""
+    annotation = field.annotation
+    text = str(annotation)
+    diagonal = any(isinstance(extra, BeforeValidator) for extra in field.metadata)
+    choices = [choice for choice in get_args(annotation) if isinstance(choice, str | int)]
+    if choices:
+        return " or ".join(f"`{choice!r}`".replace("'", '"') for choice in choices)
+    shapes = (
+        (text.count("tuple") >= 3, "three rows" + ", or `[xx, yy, zz]` for a diagonal" * diagonal),
+        ("tuple[str" in text, "list of text"),
+        ("bool" in text, "`true` or `false`"),
+        ("str" in text, "text"),
+    )
+    for holds, words in shapes:
+        if holds:
+            return words
+    numbers = next((a for a in (annotation, *get_args(annotation)) if get_origin(a) is tuple), None)
+    if numbers is None:
+        return ""
+    return "[x, y, z]" if len(get_args(numbers)) == 3 else "[low, high]"
+
+
+def _default(field: Any) -> str:
+    if field.is_required():
+        return "required"
+    if field.default is None:
+        return "not given"
+    if field.default in ((), ""):
+        return "empty"
+    if isinstance(field.default, tuple):
+        return "zero"
+    return f"`{field.default!r}`".replace("'", '"').replace("False", "false")
+
+
+def vehicle_tables(meanings: dict[str, str]) -> Iterator[str]:
+    """Yield the lines of the page: a table of keys for each table of a vehicle file."""
+    unused = set(meanings)
+    for name, heading, model in tables(VehicleFile):
+        yield f"\n## {heading if not name else f'`{heading}`'}\n\n{inspect.getdoc(model)}\n\n"
+        yield "| key | unit | meaning | allowed | if left out |\n|---|---|---|---|---|\n"
+        written = attribute_docstrings(model)
+        for key, field in model.model_fields.items():
+            if _models_in(field.annotation):
+                continue
+            dotted = f"{name}.{key}".lstrip(".")
+            meaning = written.get(key) or meanings.get(dotted)
+            unused.discard(dotted)
+            if meaning is None:
+                logger.warning("docs/guide/meanings.toml says nothing about the key %s of a vehicle file", dotted)
+            allowed = [_kind(field), allowed_range((key,), model)]
+            words = ", ".join(word for word in allowed if word) or "any number"
+            unit = (UNITS.get(key) or unit_of(key) or "").replace("2", "²").replace("3", "³")
+            yield f"| `{key}` | {unit} | {meaning} | {words} | {_default(field)} |\n"
+    for dotted in sorted(unused):
+        logger.warning("docs/guide/meanings.toml describes %s, which no vehicle file has", dotted)
+
+
+def reference_page(package: str) -> str:
+    """One page: the package's own docstring and every module in it."""
+    module = import_module(package)
+    page = [package, "=" * len(package), "", inspect.getdoc(module) or "", ""]
+    names = [info.name for info in pkgutil.iter_modules(module.__path__) if not info.ispkg]
+    for name in [f"{package}.{name}" for name in names]:
+        page += [name, "-" * len(name), "", f".. automodule:: {name}", ""]
+    return "\n".join(page)
+
+
+def _write(path: Path, text: str) -> None:
+    """Write only what changed, so that Sphinx need not read it again."""
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+def write_pages(app: Sphinx) -> None:
+    """Write all generated pages."""
+    folder = Path(app.srcdir) / "_generated"
+    meanings = tomllib.loads((Path(app.srcdir) / "guide" / "meanings.toml").read_text(encoding="utf-8"))["meaning"]
+    _write(folder / "vehicle-file.md", "".join(vehicle_tables(meanings)))
+    packages = [f"stommel.{info.name}" for info in pkgutil.iter_modules(stommel.__path__) if info.ispkg]
+    reference = folder / "reference"
+    for package in ["stommel", *packages]:
+        _write(reference / f"{package}.rst", reference_page(package))
+    for stale in set(reference.glob("*.rst")) - {reference / f"{package}.rst" for package in ["stommel", *packages]}:
+        stale.unlink()
+
+
+def _keep_bars(_app: Sphinx, _what: str, _name: str, _object: Any, _options: Any, lines: list[str]) -> None:
+    """In a docstring |x| is a magnitude, not a substitution of reStructuredText."""
+    lines[:] = [line.replace("|", "\\|") for line in lines]
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Register the generator."""
+    app.connect("builder-inited", write_pages)
+    app.connect("autodoc-process-docstring", _keep_bars)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,36 @@
+"""Configuration of the documentation (Sphinx)."""
+
+import os
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE / "_extensions"))
+# compiled functions stay plain Python, which autodoc can describe
+os.environ["NUMBA_DISABLE_JIT"] = "1"
+
+project = "stommel"
+author = "the stommel authors"
+project_copyright = "the stommel authors, Apache-2.0"
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathml", "generated_pages"]
+myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
+myst_dmath_double_inline = True
+myst_heading_anchors = 3
+exclude_patterns = ["_generated/*.md"]
+default_role = "code"
+nitpicky = False
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+autodoc_default_options = {"members": True, "show-inheritance": False}
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+
+html_theme = "furo"
+html_title = "stommel"
+html_math_renderer = "mathml"
+html_static_path = ["_static"]
+html_css_files = ["stommel.css"]
+html_copy_source = False
+html_show_sphinx = False

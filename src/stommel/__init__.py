@@ -1,1 +1,92 @@
-"""stommel."""
+"""stommel: the open system for underwater gliders, from equations to ocean.
+
+The names below are the library's front door; each is imported when it is first used, because compiled physics takes
+time to load and a script may want only one of them.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+_WHERE = {
+    "FULL": "stommel.vehicle",
+    "PAPER": "stommel.vehicle",
+    "Physics": "stommel.vehicle",
+    "Vehicle": "stommel.vehicle",
+    "builtin_names": "stommel.vehicle",
+    "load_vehicle": "stommel.vehicle",
+    "SteadyFlight": "stommel.analysis",
+    "UnreachableFlightError": "stommel.analysis",
+    "authority": "stommel.analysis",
+    "best_conditions": "stommel.analysis",
+    "flight_envelope": "stommel.analysis",
+    "linearise": "stommel.analysis",
+    "modes": "stommel.analysis",
+    "ranges_needed": "stommel.analysis",
+    "root_locus": "stommel.analysis",
+    "steady_flight": "stommel.analysis",
+    "trim": "stommel.analysis",
+    "trim_table": "stommel.analysis",
+    "turn": "stommel.analysis",
+    "design_study": "stommel.design.study",
+    "write_report": "stommel.design.report",
+    "StommelError": "stommel.errors",
+}
+
+__all__ = [
+    "FULL",
+    "PAPER",
+    "Physics",
+    "SteadyFlight",
+    "StommelError",
+    "UnreachableFlightError",
+    "Vehicle",
+    "__version__",
+    "authority",
+    "best_conditions",
+    "builtin_names",
+    "design_study",
+    "flight_envelope",
+    "linearise",
+    "load_vehicle",
+    "modes",
+    "ranges_needed",
+    "root_locus",
+    "steady_flight",
+    "trim",
+    "trim_table",
+    "turn",
+    "write_report",
+]
+
+if TYPE_CHECKING:
+    from stommel.analysis import (
+        SteadyFlight,
+        UnreachableFlightError,
+        authority,
+        best_conditions,
+        flight_envelope,
+        linearise,
+        modes,
+        ranges_needed,
+        root_locus,
+        steady_flight,
+        trim,
+        trim_table,
+        turn,
+    )
+    from stommel.design.report import write_report
+    from stommel.design.study import design_study
+    from stommel.errors import StommelError
+    from stommel.vehicle import FULL, PAPER, Physics, Vehicle, builtin_names, load_vehicle
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _WHERE:
+        raise AttributeError(f"module 'stommel' has no attribute {name!r}")
+    return getattr(import_module(_WHERE[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from math import radians
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from stommel.analysis.flight import SteadyFlight, flight_from
 from stommel.analysis.limits import Reason, UnreachableFlightError
@@ -38,6 +37,8 @@ def best_conditions(
     UnreachableFlightError
         No steady flight at any pitch.
     """
+    from scipy.optimize import minimize_scalar  # noqa: PLC0415 - slow to import, only wanted here
+
     if not np.isfinite(ballast_ml) or ballast_ml == 0.0:
         raise RequestError(f"ballast = {ballast_ml:g} ml: must be a finite number other than zero")
     water = water or reference_water(vehicle)

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from stommel.analysis.authority import Authority, authority
 from stommel.analysis.linearization import Linearization, linearise
@@ -137,6 +136,8 @@ def _design(vehicle: Vehicle, speed_m_s: float, pitch_deg: float, physics: Physi
 
 def _branches(eigenvalues: Sequence[NDArray[np.complex128]]) -> Branches:
     """Order each set of eigenvalues so that every column moves least from row to row."""
+    from scipy.optimize import linear_sum_assignment  # noqa: PLC0415 - slow to import, only wanted here
+
     rows = [np.array(sorted(eigenvalues[0], key=lambda value: (-abs(value), -value.imag)))]
     for unordered in eigenvalues[1:]:
         _, columns = linear_sum_assignment(np.abs(rows[-1][:, None] - unordered[None, :]))

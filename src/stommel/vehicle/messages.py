@@ -30,7 +30,7 @@ def unit_of(key: str) -> str | None:
 def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[str, str]]:
     """Return (key, sentence) for each of the errors, unknown keys first: they often explain the missing ones."""
     details = sorted(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
-    return [(dotted(detail["loc"]), _sentence(detail, model)) for detail in details]
+    return [(dotted(detail["loc"]), sentence(detail, model)) for detail in details]
 
 
 def dotted(location: Sequence[str | int]) -> str:
@@ -38,7 +38,8 @@ def dotted(location: Sequence[str | int]) -> str:
     return ".".join(str(part) for part in location)
 
 
-def _sentence(detail: ErrorDetails, model: type[BaseModel]) -> str:
+def sentence(detail: ErrorDetails, model: type[BaseModel]) -> str:
+    """Say what is wrong with one value and what is allowed; `model` describes what it stands in."""
     key, value, kind = dotted(detail["loc"]), detail["input"], detail["type"]
     if kind == "extra_forbidden":
         return _unknown(detail["loc"], model)

@@ -1,0 +1,45 @@
+"""The verbs of the command `stommel`."""
+
+from typing import Annotated
+
+import typer
+
+from stommel import __version__
+from stommel.cli import derivative, design, envelope, modes, root_locus, steady, table, trim, turn, vehicles
+
+app = typer.Typer(
+    name="stommel",
+    help="The open system for underwater gliders: design by dynamic-model analysis.",
+    no_args_is_help=True,
+    add_completion=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"stommel {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and stop.")
+    ] = False,
+) -> None:
+    pass
+
+
+app.command("design")(design.design)
+app.command("trim")(trim.trim)
+app.command("table")(table.table)
+app.command("steady")(steady.steady)
+app.command("turn")(turn.turn)
+app.command("envelope")(envelope.envelope)
+app.command("modes")(modes.modes)
+app.command("root-locus")(root_locus.root_locus)
+app.command("derivative")(derivative.derivative)
+app.command("vehicles")(vehicles.vehicles)
+app.add_typer(vehicles.vehicle_app, name="vehicle")

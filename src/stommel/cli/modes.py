@@ -1,0 +1,103 @@
+"""`stommel modes`: linear models and natural modes of a flight."""
+
+from typing import TYPE_CHECKING, Any
+
+from stommel.cli.options import (
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    PitchOption,
+    SpeedOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
+from stommel.cli.output import number, show_json, show_table, show_values
+
+if TYPE_CHECKING:
+    from stommel.analysis import Authority, LinearModel, Mode
+
+
+def modes(
+    vehicle: VehicleArgument,
+    speed: SpeedOption,
+    pitch: PitchOption,
+    physics: PhysicsOption = PhysicsChoice.paper,
+    as_json: JsonOption = False,
+) -> None:
+    """Linearise about a wings-level flight; name its modes, and show the control authority beside them.
+
+    Example: stommel modes zju --speed 0.4 --pitch -35
+    """
+    from stommel.analysis import authority, linearise, trim
+    from stommel.analysis import modes as find_modes
+
+    glider = load(vehicle)
+    switches = physics_of(physics)
+    flight = trim(glider, speed_m_s=speed, pitch_deg=pitch, physics=switches)
+    linear = linearise(glider, flight, physics=switches)
+    found, able = find_modes(linear), authority(linear)
+    if as_json:
+        show_json(
+            {
+                "longitudinal": [mode.as_row() for mode in found.longitudinal],
+                "lateral": [mode.as_row() for mode in found.lateral] if found.lateral is not None else None,
+                "models": {
+                    "longitudinal": _model(linear.longitudinal),
+                    "lateral": _model(linear.lateral) if linear.lateral is not None else None,
+                },
+                "authority": able.as_row(),
+                "flight": flight.as_row(),
+            }
+        )
+        return
+    _show_plane(f"{glider.name}: longitudinal modes (u, w, q, theta)", found.longitudinal)
+    if found.lateral is None:
+        show_values(
+            "Lateral-directional modes", {"not known": "the sources of this vehicle give no lateral coefficients"}
+        )
+    else:
+        _show_plane("Lateral-directional modes (v, p, r, phi)", found.lateral)
+    _show_authority(able)
+
+
+def _model(model: "LinearModel") -> dict[str, Any]:
+    return {
+        "A": model.A.tolist(),
+        "B": model.B.tolist(),
+        "states": list(model.states),
+        "inputs": list(model.inputs),
+    }
+
+
+def _show_plane(title: str, found: "tuple[Mode, ...]") -> None:
+    rows = []
+    for mode in found:
+        if mode.eigenvalue.imag < 0.0:
+            continue  # the other half of the pair
+        swing = f" ± {mode.eigenvalue.imag:.4f}i" if mode.oscillatory else ""
+        rows.append(
+            [
+                mode.name,
+                f"{mode.eigenvalue.real:.4f}{swing}",
+                number(mode.damping_ratio, 3),
+                number(mode.period, 2) if mode.oscillatory else "-",
+                number(mode.time_constant, 2),
+                number(mode.time_to_half, 2),
+            ]
+        )
+    columns = ["mode", "eigenvalue\n1/s", "damping\nratio", "period\ns", "time\nconstant s", "time to\nhalf s"]
+    show_table(title, columns, rows)
+
+
+def _show_authority(able: "Authority") -> None:
+    values = {
+        "pitch per moving mass": number(able.pitch_deg_per_mm, 4, "deg/mm"),
+        "speed per ballast": number(able.speed_m_s_per_ml * 1e3, 3, "mm/s per ml"),
+        "initial pitch acceleration": number(able.initial_pitch_acceleration_deg_s2_per_mm, 4, "deg/s2 per mm"),
+    }
+    if able.turn_rate_deg_s_per_rudder_deg is not None:
+        values["turn rate per rudder"] = number(able.turn_rate_deg_s_per_rudder_deg, 4, "deg/s per deg")
+    if able.turn_rate_deg_s_per_roll_deg is not None:
+        values["turn rate per roll of mass"] = number(able.turn_rate_deg_s_per_roll_deg, 5, "deg/s per deg")
+    show_values("Control authority (final change per unit)", values)

@@ -1,0 +1,118 @@
+"""`stommel root-locus`: how the modes move as one number of the design changes."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.output import number, show_json, show_table
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from stommel.analysis import RootLocus
+
+
+def root_locus(
+    vehicle: VehicleArgument,
+    over: Annotated[
+        str,
+        typer.Option(
+            "--over",
+            help="What varies: wing_position or rudder_position (in hull lengths), or the key of any number of the "
+            "vehicle file in the file's unit, such as rigid_body.centre_of_mass_m.2",
+        ),
+    ],
+    start: Annotated[float, typer.Option("--from", help="First value.")],
+    stop: Annotated[float, typer.Option("--to", help="Last value.")],
+    points: Annotated[int, typer.Option("--points", help="How many values.")] = 41,
+    speed: Annotated[float, typer.Option("--speed", help="Speed along the path [m/s].")] = 0.4,
+    pitch: Annotated[float, typer.Option("--pitch", help="Pitch [deg].")] = -35.0,
+    physics: PhysicsOption = PhysicsChoice.paper,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output", "-o", help="Plot without its ending; VEHICLE-root-locus-OVER in this folder if left out."
+        ),
+    ] = None,
+    plot: Annotated[bool, typer.Option("--plot/--no-plot", help="Write the plot as PNG and SVG.")] = True,
+    as_json: JsonOption = False,
+) -> None:
+    """Follow the eigenvalues, with the trim solved anew at each value, as in Figs. 3 and 4 of the paper.
+
+    Example: stommel root-locus zju --over wing_position --from 0 --to 0.2
+    """
+    from stommel.analysis import root_locus as follow
+
+    glider = load(vehicle)
+    locus = follow(
+        glider, over, start, stop, points=points, speed_m_s=speed, pitch_deg=pitch, physics=physics_of(physics)
+    )
+    written: list[Path] = []
+    if plot:
+        from stommel.design.plots import root_locus_figure, save_figure
+
+        stem = output or Path(f"{Path(vehicle).stem}-root-locus-{over}")
+        written = save_figure(root_locus_figure(locus), stem)
+    if as_json:
+        show_json(_as_json(locus, written))
+        return
+    _show(glider.name, locus)
+    for path in written:
+        typer.echo(f"wrote {path}")
+
+
+def _pairs(values: "np.ndarray[Any, Any]") -> list[dict[str, float]]:
+    return [{"real": float(value.real), "imag": float(value.imag)} for value in values]
+
+
+def _as_json(locus: "RootLocus", written: list[Path]) -> dict[str, Any]:
+    lateral = locus.lateral
+    return {
+        "over": locus.over,
+        "unit": locus.unit,
+        "speed_m_s": locus.speed_m_s,
+        "pitch_deg": locus.pitch_deg,
+        "design_value": locus.design_value,
+        "points": [
+            {
+                "value": float(value),
+                "longitudinal": _pairs(locus.longitudinal[k]),
+                "lateral": _pairs(lateral[k]) if lateral is not None else None,
+                "authority": locus.authorities[k].as_row(),
+            }
+            for k, value in enumerate(locus.values)
+        ],
+        "plots": [str(path) for path in written],
+    }
+
+
+def _show(name: str, locus: "RootLocus") -> None:
+    rows = []
+    every = max(1, (len(locus.values) - 1) // 10)
+    lateral = locus.lateral
+    for k in range(0, len(locus.values), every):
+        able = locus.authorities[k]
+        rows.append(
+            [
+                f"{locus.values[k]:.4g}",
+                _eigenvalues(locus.longitudinal[k]),
+                _eigenvalues(lateral[k]) if lateral is not None else "-",
+                number(able.pitch_deg_per_mm, 3),
+                number(able.turn_rate_deg_s_per_rudder_deg, 3),
+            ]
+        )
+    unit = f"\n{locus.unit}" if locus.unit else ""
+    columns = [f"value{unit}", "longitudinal\n1/s", "lateral\n1/s", "deg\nper mm", "deg/s\nper deg"]
+    show_table(f"{name}: eigenvalues over {locus.over}", columns, rows)
+
+
+def _eigenvalues(values: "np.ndarray[Any, Any]") -> str:
+    lines = []
+    for value in values:
+        if value.imag > 0.0:
+            lines.append(f"{value.real:.3f} ± {value.imag:.3f}i")
+        elif value.imag == 0.0:
+            lines.append(f"{value.real:.3f}")
+    return "\n".join(lines)

@@ -1,0 +1,73 @@
+"""`stommel steady`: the flight that actuator settings give."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.output import number, show_json, show_values
+
+if TYPE_CHECKING:
+    from stommel.analysis.flight import SteadyFlight
+
+
+def steady(
+    vehicle: VehicleArgument,
+    moving_mass_mm: Annotated[
+        float, typer.Option("--moving-mass-mm", help="Moving mass forward of the centre of buoyancy [mm].")
+    ],
+    ballast_ml: Annotated[float, typer.Option("--ballast-ml", help="Ballast volume [ml]; negative dives.")],
+    rudder_deg: Annotated[float, typer.Option("--rudder-deg", help="Rudder [deg]; positive turns to starboard.")] = 0.0,
+    roll_mass_deg: Annotated[
+        float, typer.Option("--roll-mass-deg", help="Moving mass about the hull [deg]; positive swings it to port.")
+    ] = 0.0,
+    physics: PhysicsOption = PhysicsChoice.paper,
+    ignore_limits: Annotated[
+        bool, typer.Option("--ignore-limits", help="Answer even beyond the actuators' limits.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Find the steady flight, straight or turning, that settings give.
+
+    Example: stommel steady seawing --moving-mass-mm 421.67 --ballast-ml -292.7 --roll-mass-deg 45
+    """
+    from stommel.analysis.trim import steady_flight
+
+    glider = load(vehicle)
+    flight = steady_flight(
+        glider,
+        moving_mass_mm=moving_mass_mm,
+        ballast_ml=ballast_ml,
+        rudder_deg=rudder_deg,
+        roll_mass_deg=roll_mass_deg,
+        physics=physics_of(physics),
+        within_limits=not ignore_limits,
+    )
+    show_turn(f"{glider.name}: steady flight of these settings", flight, as_json)
+
+
+def show_turn(title: str, flight: "SteadyFlight", as_json: bool) -> None:
+    """Print a straight or turning flight."""
+    row = flight.as_turn()
+    if as_json:
+        show_json(row)
+        return
+    straight = row["radius_m"] is None
+    show_values(
+        title,
+        {
+            "speed": number(row["speed_m_s"], 3, "m/s"),
+            "pitch": number(row["pitch_deg"], 2, "deg"),
+            "glide path": number(row["glide_path_deg"], 2, "deg"),
+            "angle of attack": number(row["angle_of_attack_deg"], 2, "deg"),
+            "sideslip": number(row["sideslip_deg"], 2, "deg"),
+            "roll": number(row["roll_deg"], 2, "deg"),
+            "turn rate": "straight" if straight else f"{row['turn_rate_rad_s']:.5f} rad/s",
+            "radius": "straight" if straight else number(row["radius_m"], 2, "m"),
+            "moving mass position": number(row["moving_mass_position_mm"], 1, "mm"),
+            "ballast volume": number(row["ballast_volume_ml"], 1, "ml"),
+            "rudder": number(row["rudder_deg"], 2, "deg"),
+            "roll of moving mass": number(row["roll_mass_deg"], 2, "deg"),
+            "residual": f"{row['residual']:.1e} N, N m",
+        },
+    )

@@ -1,0 +1,50 @@
+"""`stommel table`: trim over speeds and pitches, as Tables 1 and 2 of the paper."""
+
+from typing import Annotated
+
+import typer
+
+from stommel.cli.numbers import numbers
+from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.output import number, show_json, show_table
+
+
+def table(
+    vehicle: VehicleArgument,
+    speed: Annotated[str, typer.Option("--speed", help="Speeds [m/s]: 0.4, or 0.2,0.4, or 0.1:0.8:0.1.")],
+    pitch: Annotated[str, typer.Option("--pitch", help="Pitches [deg]: -35, or -20,-35, or -5:-60:-5.")],
+    physics: PhysicsOption = PhysicsChoice.paper,
+    as_json: JsonOption = False,
+) -> None:
+    """Trim every pair of speed and pitch. Rows beyond the actuators' limits stay, and are marked.
+
+    Example: stommel table zju --speed 0.4 --pitch -5:-60:-5
+    """
+    speeds, pitches = numbers(speed, "--speed"), numbers(pitch, "--pitch")
+    from stommel.analysis.trim import trim_table
+
+    glider = load(vehicle)
+    rows = trim_table(glider, speeds_m_s=speeds, pitches_deg=pitches, physics=physics_of(physics))
+    if as_json:
+        show_json(
+            {"rows": [row.flight.as_row() | {"beyond_limits": [str(excess) for excess in row.beyond]} for row in rows]}
+        )
+        return
+    body, notes = [], []
+    for row in rows:
+        cells = row.flight.as_row()
+        mark = "*" if row.beyond else ""
+        body.append(
+            [
+                number(cells["speed_m_s"], 3),
+                number(cells["pitch_deg"], 1),
+                number(cells["moving_mass_position_mm"], 1) + mark,
+                number(cells["angle_of_attack_deg"], 2),
+                number(cells["ballast_volume_ml"], 1),
+                number(cells["glide_path_deg"], 2),
+            ]
+        )
+    if any(row.beyond for row in rows):
+        notes.append("* beyond the limits of the vehicle file; --json names them")
+    columns = ["speed\nm/s", "pitch\ndeg", "moving mass\nmm", "angle of attack\ndeg", "ballast\nml", "glide path\ndeg"]
+    show_table(f"{glider.name}: wings-level equilibria", columns, body, notes)

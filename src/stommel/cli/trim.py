@@ -1,0 +1,56 @@
+"""`stommel trim`: the actuator settings of one wanted flight."""
+
+from typing import Annotated
+
+import typer
+
+from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, SpeedOption, VehicleArgument, load, physics_of
+from stommel.cli.output import number, show_json, show_values
+
+
+def trim(
+    vehicle: VehicleArgument,
+    speed: SpeedOption,
+    pitch: Annotated[float | None, typer.Option("--pitch", help="Pitch [deg]; negative dives.")] = None,
+    glide_path: Annotated[
+        float | None, typer.Option("--glide-path", help="Angle of the path instead of the pitch [deg].")
+    ] = None,
+    physics: PhysicsOption = PhysicsChoice.paper,
+    ignore_limits: Annotated[
+        bool, typer.Option("--ignore-limits", help="Answer even beyond the actuators' limits.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Find moving-mass position and ballast volume for a wanted steady flight.
+
+    Example: stommel trim zju --speed 0.4 --pitch -35
+    """
+    from stommel.analysis.trim import trim as solve
+
+    glider = load(vehicle)
+    flight = solve(
+        glider,
+        speed_m_s=speed,
+        pitch_deg=pitch,
+        glide_path_deg=glide_path,
+        physics=physics_of(physics),
+        within_limits=not ignore_limits,
+    )
+    row = flight.as_row()
+    if as_json:
+        show_json(row)
+        return
+    show_values(
+        f"{glider.name}: wings-level steady flight",
+        {
+            "speed": number(row["speed_m_s"], 3, "m/s"),
+            "pitch": number(row["pitch_deg"], 2, "deg"),
+            "glide path": number(row["glide_path_deg"], 2, "deg"),
+            "angle of attack": number(row["angle_of_attack_deg"], 2, "deg"),
+            "moving mass position": number(row["moving_mass_position_mm"], 1, "mm forward of the centre of buoyancy"),
+            "ballast volume": number(row["ballast_volume_ml"], 1, "ml"),
+            "horizontal speed": number(flight.horizontal_speed, 3, "m/s"),
+            "sinking speed": number(flight.sinking_speed, 3, "m/s"),
+            "residual": f"{row['residual']:.1e} N, N m",
+        },
+    )

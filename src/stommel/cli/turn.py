@@ -1,0 +1,64 @@
+"""`stommel turn`: the settings of a wanted turn."""
+
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from stommel.cli.options import (
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    PitchOption,
+    SpeedOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
+from stommel.cli.steady import show_turn
+
+
+class SteeringChoice(StrEnum):
+    """What steers."""
+
+    rudder = "rudder"
+    roll = "roll"
+
+
+def turn(
+    vehicle: VehicleArgument,
+    speed: SpeedOption,
+    pitch: PitchOption,
+    turn_rate: Annotated[
+        float | None, typer.Option("--turn-rate", help="Turn rate [rad/s]; positive turns to starboard.")
+    ] = None,
+    radius: Annotated[
+        float | None, typer.Option("--radius", help="Radius instead of the turn rate [m]; positive turns to starboard.")
+    ] = None,
+    by: Annotated[
+        SteeringChoice | None, typer.Option("--by", help="What steers; the rudder where there is one.")
+    ] = None,
+    physics: PhysicsOption = PhysicsChoice.paper,
+    ignore_limits: Annotated[
+        bool, typer.Option("--ignore-limits", help="Answer even beyond the actuators' limits.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Find moving mass, ballast and rudder (or roll of the moving mass) for a wanted turn.
+
+    Example: stommel turn seawing --speed 0.4 --pitch -30 --turn-rate 0.005
+    """
+    from stommel.analysis.trim import turn as solve
+
+    glider = load(vehicle)
+    flight = solve(
+        glider,
+        speed_m_s=speed,
+        pitch_deg=pitch,
+        turn_rate_rad_s=turn_rate,
+        radius_m=radius,
+        by=by.value if by is not None else None,
+        physics=physics_of(physics),
+        within_limits=not ignore_limits,
+    )
+    show_turn(f"{glider.name}: steady turn", flight, as_json)

@@ -1,0 +1,120 @@
+"""States from a file, and their accelerations in words: for checking stommel against other codes."""
+
+from collections.abc import Sequence
+from math import degrees, radians
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+
+from stommel.dynamics.acceleration import accelerations, state_of
+from stommel.dynamics.attitude import euler_rates, quaternion_from_euler
+from stommel.dynamics.packing import pack, reference_water
+from stommel.dynamics.state import Actuation
+from stommel.errors import FileError, Problem
+from stommel.vehicle import Physics, Vehicle
+from stommel.vehicle.messages import dotted, sentence
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Triple = tuple[Finite, Finite, Finite]
+
+
+class StateEntry(BaseModel):
+    """One state of a state file."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    velocity_m_s: Triple
+    angular_velocity_rad_s: Triple
+    attitude_deg: Triple
+    moving_mass_position_m: Finite
+    moving_mass_rate_m_s: Finite = 0.0
+    moving_mass_force_n: Finite = 0.0
+    ballast_volume_m3: Finite = 0.0
+    rudder_deg: Finite = 0.0
+    roll_mass_deg: Finite = 0.0
+
+    @property
+    def lateral(self) -> bool:
+        """Whether the state leaves the vertical plane."""
+        _, v, _ = self.velocity_m_s
+        p, _, r = self.angular_velocity_rad_s
+        return any((v, p, r, self.attitude_deg[0], self.rudder_deg, self.roll_mass_deg))
+
+
+def read_states(path: Path) -> list[StateEntry]:
+    """Read a JSON list of states.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read, or a state has an unknown, missing or impossible key.
+    """
+    try:
+        text = path.read_bytes()
+    except OSError as error:
+        raise FileError([Problem(str(path), "", f"cannot be read: {error.strerror or error}")]) from error
+    try:
+        return TypeAdapter(list[StateEntry]).validate_json(text)
+    except ValidationError as error:
+        raise FileError([_problem(str(path), detail) for detail in error.errors(include_url=False)]) from None
+
+
+def _problem(file: str, detail: Any) -> Problem:
+    if detail["type"] == "json_invalid":
+        return Problem(file, "", f"is not valid JSON: {detail['msg'].removeprefix('Invalid JSON: ')}")
+    if not detail["loc"]:
+        return Problem(file, "", "must be a list of states")
+    return Problem(file, dotted(detail["loc"]), f"state {sentence(detail, StateEntry)}")
+
+
+def accelerations_of(
+    vehicle: Vehicle, states: Sequence[StateEntry], *, free: bool, physics: Physics
+) -> list[dict[str, Any]]:
+    """Accelerations in each of the `states` [SI, attitude rates in deg/s], in still reference water.
+
+    Parameters
+    ----------
+    free
+        The moving mass slides under its force; otherwise it keeps its rate.
+
+    Raises
+    ------
+    LateralPlaneUnknownError
+        A state leaves the vertical plane of a vehicle whose lateral coefficients are unknown.
+    """
+    record, water = pack(vehicle, physics), reference_water(vehicle)
+    answers = []
+    for entry in states:
+        if entry.lateral:
+            vehicle.require_lateral("a state with sideways motion")
+        roll, pitch, yaw = (radians(angle) for angle in entry.attitude_deg)
+        actuation = Actuation(
+            r_px_dot=entry.moving_mass_rate_m_s,
+            u_px=entry.moving_mass_force_n,
+            delta_r=radians(entry.rudder_deg),
+            mu=radians(entry.roll_mass_deg),
+        )
+        x = state_of(
+            record,
+            entry.velocity_m_s,
+            entry.angular_velocity_rad_s,
+            (0.0, 0.0, 0.0),
+            quaternion_from_euler(roll, pitch, yaw),
+            entry.moving_mass_position_m,
+            entry.ballast_volume_m3,
+            actuation,
+            water,
+        )
+        found = accelerations(record, x, actuation, water, free)
+        rates = euler_rates(roll, pitch, entry.angular_velocity_rad_s)
+        answers.append(
+            {
+                "acceleration_m_s2": list(found.v_dot),
+                "angular_acceleration_rad_s2": list(found.omega_dot),
+                "moving_mass_acceleration_m_s2": found.r_px_ddot,
+                "inertial_velocity_m_s": list(found.X_dot),
+                "attitude_rate_deg_s": [degrees(rate) for rate in rates] if rates is not None else None,
+            }
+        )
+    return answers

@@ -2,33 +2,50 @@
 
 import os
 import sys
+from collections.abc import Callable
+from typing import NoReturn
 
 USAGE_ERROR, DEFECT, INTERRUPTED = 2, 1, 130
 
 
-def main() -> None:
+def main() -> NoReturn:
     """Run the command line; no traceback reaches a user, unless STOMMEL_TRACEBACK is set."""
+    sys.exit(_run())
+
+
+def _run() -> int:
+    import typer
+
     from stommel.cli.app import app
     from stommel.errors import StommelError
 
     try:
-        app()
+        status = app(standalone_mode=False)
     except StommelError as error:
-        for line in str(error).splitlines():
-            print(f"error: {line}", file=sys.stderr)  # noqa: T201 - this is the command line
-        sys.exit(USAGE_ERROR)
-    except KeyboardInterrupt:
-        sys.exit(INTERRUPTED)
+        return _fail(str(error), USAGE_ERROR)
+    except typer.TyperException as error:
+        return _fail(_usage_message(error), USAGE_ERROR)
+    except (KeyboardInterrupt, typer.Abort):
+        return INTERRUPTED
     except BrokenPipeError:
         # the reader of our output has gone, as with `| head`; keep Python from complaining at exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(0)
+        return 0
     except Exception as error:
         if os.environ.get("STOMMEL_TRACEBACK"):
             raise
-        print(  # noqa: T201 - this is the command line
-            f"error: this is a defect of stommel, please report it: {type(error).__name__}: {error} "
-            "(set STOMMEL_TRACEBACK=1 to see where)",
-            file=sys.stderr,
-        )
-        sys.exit(DEFECT)
+        what = f"{type(error).__name__}: {error}".replace("\n", " ")
+        return _fail(f"this is a defect of stommel, please report it (STOMMEL_TRACEBACK=1 shows where): {what}", DEFECT)
+    return status if isinstance(status, int) else 0
+
+
+def _usage_message(error: Exception) -> str:
+    """Return the sentence of a usage error, with the option it is about."""
+    write: Callable[[], str] | None = getattr(error, "format_message", None)
+    return write() if write is not None else str(error)
+
+
+def _fail(message: str, status: int) -> int:
+    for line in message.splitlines():
+        print(f"error: {line}", file=sys.stderr)  # noqa: T201 - this is the command line
+    return status

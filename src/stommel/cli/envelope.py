@@ -25,7 +25,7 @@ def envelope(
     physics: PhysicsOption = PhysicsChoice.paper,
     as_json: JsonOption = False,
 ) -> None:
-    """Show the speeds that the actuator ranges reach at each pitch, and the ranges that a wanted region needs.
+    """Show the speeds that actuator ranges reach at each pitch, and the ranges that a wanted region needs.
 
     Without --speed and --pitch the wanted region is the specification's.
 
@@ -49,8 +49,8 @@ def envelope(
     best = best_conditions(glider, ballast_ml=full_ml, physics=switches) if full_ml < 0.0 else None
     if reach is None and needs is None:
         raise StommelError(
-            f"{glider.name}: its file has neither [actuators.buoyancy], to see what is reached, nor [specification], to "
-            "see what is needed; give a wanted region with --speed and --pitch"
+            f"{glider.name}: its file has neither [actuators.buoyancy], to see what is reached, nor [specification], "
+            "to see what is needed; give a wanted region with --speed and --pitch"
         )
     if as_json:
         show_json(

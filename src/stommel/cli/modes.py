@@ -1,6 +1,6 @@
 """`stommel modes`: linear models and natural modes of a flight."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from stommel.cli.options import (
     JsonOption,
@@ -15,7 +15,7 @@ from stommel.cli.options import (
 from stommel.cli.output import number, show_json, show_table, show_values
 
 if TYPE_CHECKING:
-    from stommel.analysis import Authority, LinearModel, Mode
+    from stommel.analysis import Authority, Mode
 
 
 def modes(
@@ -37,15 +37,18 @@ def modes(
     flight = trim(glider, speed_m_s=speed, pitch_deg=pitch, physics=switches)
     linear = linearise(glider, flight, physics=switches)
     found, able = find_modes(linear), authority(linear)
+    models = {"longitudinal": linear.longitudinal}
+    if linear.lateral is not None:
+        models["lateral"] = linear.lateral
     if as_json:
         show_json(
             {
                 "longitudinal": [mode.as_row() for mode in found.longitudinal],
                 "lateral": [mode.as_row() for mode in found.lateral] if found.lateral is not None else None,
-                "models": {
-                    "longitudinal": _model(linear.longitudinal),
-                    "lateral": _model(linear.lateral) if linear.lateral is not None else None,
-                },
+                "A": {plane: model.A.tolist() for plane, model in models.items()},
+                "B": {plane: model.B.tolist() for plane, model in models.items()},
+                "states": {plane: list(model.states) for plane, model in models.items()},
+                "inputs": {plane: list(model.inputs) for plane, model in models.items()},
                 "authority": able.as_row(),
                 "flight": flight.as_row(),
             }
@@ -59,15 +62,6 @@ def modes(
     else:
         _show_plane("Lateral-directional modes (v, p, r, phi)", found.lateral)
     _show_authority(able)
-
-
-def _model(model: "LinearModel") -> dict[str, Any]:
-    return {
-        "A": model.A.tolist(),
-        "B": model.B.tolist(),
-        "states": list(model.states),
-        "inputs": list(model.inputs),
-    }
 
 
 def _show_plane(title: str, found: "tuple[Mode, ...]") -> None:

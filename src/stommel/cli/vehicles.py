@@ -8,7 +8,7 @@ import typer
 from stommel.cli.options import JsonOption, VehicleArgument, load
 from stommel.cli.output import number, show_json, show_table, show_values
 
-vehicle_app = typer.Typer(no_args_is_help=True, help="Look at, check and begin vehicle files.")
+vehicle_app = typer.Typer(help="Look at, check and begin vehicle files.")
 
 
 def vehicles(as_json: JsonOption = False) -> None:

@@ -138,7 +138,7 @@ def vehicle_from_text(text: str, origin: str) -> Vehicle:
 
 def stated_numbers(vehicle: Vehicle) -> list[tuple[str, Any, Provenance]]:
     """Every number of the file with its dotted key and origin, in the order of the file."""
-    return [(key, value, vehicle.provenance_of(key)) for key, value in numbers(vehicle.document)]
+    return [(key, value, vehicle.provenance_of(key)) for key, value in numbers(vehicle.document) if key != "format"]
 
 
 def _validated(document: Mapping[str, Any], origin: str) -> VehicleFile:

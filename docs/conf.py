@@ -17,13 +17,14 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathm
 myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
 myst_dmath_double_inline = True
 myst_heading_anchors = 3
-exclude_patterns = ["_generated/*.md"]
+exclude_patterns = ["_generated/*.md", "_static/**"]
 default_role = "code"
 nitpicky = False
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
-autodoc_default_options = {"members": True, "show-inheritance": False}
+autodoc_default_options = {"members": True, "exclude-members": "model_config"}
+add_module_names = False
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 

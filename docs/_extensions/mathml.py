@@ -24,10 +24,13 @@ ET.register_namespace("", MATHML)
 _REWRITTEN = (  # what the converter lacks, in terms of what it knows
     (re.compile(r"\{aligned\}"), "{align*}"),
     (re.compile(r"\\mathrm\b"), r"\\text"),
-    (re.compile(r"\\[lr]vert\b"), "|"),
+    (re.compile(r"\|([^|]+)\|"), r"\\left|\1\\right|"),
 )
-_STYLES = {"bold-italic": "BOLD ITALIC", "double-struck": "DOUBLE-STRUCK"}
+_STYLES = {"bold": "BOLD", "bold-italic": "BOLD ITALIC", "double-struck": "DOUBLE-STRUCK"}
 _ACCENTS = set("˙¨^~¯")
+_SIGNS = set("+-−±∓")
+_CLOSING = set(")]}⊤")
+_THIN = {"width": "0.167em"}
 
 
 def _styled(character: str, style: str) -> str:
@@ -39,11 +42,40 @@ def _styled(character: str, style: str) -> str:
         return character
 
 
+def _is(element: ET.Element | None, *names: str) -> bool:
+    return element is not None and element.tag.removeprefix(f"{{{MATHML}}}") in names
+
+
+def _is_function(element: ET.Element) -> bool:
+    """Whether it is a name such as sin, with or without an exponent."""
+    if _is(element, "msup", "msub"):
+        element = element[0]
+    return _is(element, "mi") and len(element.text or "") > 1
+
+
+def _space(row: ET.Element) -> None:
+    """Set thin spaces about names of functions, and tell a sign from an operation."""
+    children = list(row)
+    row[:] = []
+    for before, child, after in zip([None, *children], children, [*children[1:], None], strict=False):
+        begins = before is None or (_is(before, "mo", "mspace") and before.text not in _CLOSING)
+        if _is(child, "mo") and child.text in _SIGNS and begins:
+            child.set("form", "prefix")
+        function = _is_function(child)
+        if function and before is not None and not _is(before, "mo", "mspace") and not _is_function(before):
+            row.append(ET.Element(f"{{{MATHML}}}mspace", _THIN))
+        row.append(child)
+        if function and after is not None and not _is(after, "mo", "mspace"):
+            row.append(ET.Element(f"{{{MATHML}}}mspace", _THIN))
+
+
 def mathml(latex: str, display: str, location: Any = None) -> str:
     """Convert an equation, with a warning for anything that the converter passed through without understanding it."""
     for pattern, replacement in _REWRITTEN:
         latex = pattern.sub(replacement, latex)
     root = ET.fromstring(convert(latex, display=display))  # own text
+    for row in [row for row in root.iter() if _is(row, "math", "mrow", "mtd")]:
+        _space(row)
     for element in root.iter():
         text = element.text or ""
         if text.startswith("\\") or text == "&":
@@ -52,7 +84,7 @@ def mathml(latex: str, display: str, location: Any = None) -> str:
         if style:
             del element.attrib["mathvariant"]
             element.text = "".join(_styled(character, style) for character in text)
-        if element.tag == f"{{{MATHML}}}mover" and element[-1].text in _ACCENTS:
+        if _is(element, "mover") and element[-1].text in _ACCENTS:
             element.set("accent", "true")
             element[-1].attrib.pop("stretchy", None)
     return ET.tostring(root, encoding="unicode")

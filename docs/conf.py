@@ -19,7 +19,7 @@ myst_dmath_double_inline = True
 myst_heading_anchors = 3
 exclude_patterns = ["_generated/*.md", "_static/**"]
 default_role = "code"
-nitpicky = False
+smartquotes = False  # they would turn --option into a dash
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"

@@ -144,13 +144,24 @@ def write_pages(app: Sphinx) -> None:
         stale.unlink()
 
 
-def _keep_bars(_app: Sphinx, _what: str, _name: str, _object: Any, _options: Any, lines: list[str]) -> None:
-    """In a docstring |x| is a magnitude, not a substitution of reStructuredText."""
+_COLON = "\ue000"
+
+
+def _keep_bars(_app: Sphinx, what: str, _name: str, _object: Any, _options: Any, lines: list[str]) -> None:
+    """In a docstring |x| is a magnitude, not a substitution, and an attribute's colon does not follow a type."""
     lines[:] = [line.replace("|", "\\|") for line in lines]
+    if what in ("attribute", "data", "property"):
+        lines[:] = [line.replace(":", _COLON) for line in lines]
+
+
+def _show_colons(_app: Sphinx, _what: str, _name: str, _object: Any, _options: Any, lines: list[str]) -> None:
+    """Undo the hiding of colons from napoleon."""
+    lines[:] = [line.replace(_COLON, ":") for line in lines]
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
     """Register the generator."""
     app.connect("builder-inited", write_pages)
-    app.connect("autodoc-process-docstring", _keep_bars)
+    app.connect("autodoc-process-docstring", _keep_bars, priority=400)  # napoleon has 500
+    app.connect("autodoc-process-docstring", _show_colons, priority=600)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -65,6 +65,13 @@ class Linearization:
         return float(max(np.abs(A[LONGITUDINAL, LATERAL]).max(), np.abs(A[LATERAL, LONGITUDINAL]).max()))
 
 
+def is_stable(vehicle: Vehicle, flight: SteadyFlight, *, physics: Physics = PAPER) -> bool:
+    """Whether small disturbances of `flight` die out; in the vertical plane alone where the lateral one is unknown."""
+    linear = linearise(vehicle, flight, physics=physics)
+    model = linear.whole if linear.lateral is not None else linear.longitudinal
+    return bool(np.max(model.eigenvalues().real) < 0.0)
+
+
 def linearise(
     vehicle: Vehicle, flight: SteadyFlight, *, physics: Physics = PAPER, water: Water | None = None
 ) -> Linearization:

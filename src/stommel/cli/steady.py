@@ -9,6 +9,7 @@ from stommel.cli.output import number, show_json, show_values
 
 if TYPE_CHECKING:
     from stommel.analysis.flight import SteadyFlight
+    from stommel.vehicle import Physics, Vehicle
 
 
 def steady(
@@ -43,18 +44,20 @@ def steady(
         physics=physics_of(physics),
         within_limits=not ignore_limits,
     )
-    show_turn(f"{glider.name}: steady flight of these settings", flight, as_json)
+    show_turn("steady flight of these settings", glider, flight, physics_of(physics), as_json)
 
 
-def show_turn(title: str, flight: "SteadyFlight", as_json: bool) -> None:
-    """Print a straight or turning flight."""
-    row = flight.as_turn()
+def show_turn(title: str, glider: "Vehicle", flight: "SteadyFlight", physics: "Physics", as_json: bool) -> None:
+    """Print a straight or turning flight, and whether the vehicle stays in it by itself."""
+    from stommel.analysis.linearization import is_stable
+
+    row, stable = flight.as_turn(), is_stable(glider, flight, physics=physics)
     if as_json:
-        show_json(row)
+        show_json(row | {"stable": stable})
         return
     straight = row["radius_m"] is None
     show_values(
-        title,
+        f"{glider.name}: {title}",
         {
             "speed": number(row["speed_m_s"], 3, "m/s"),
             "pitch": number(row["pitch_deg"], 2, "deg"),
@@ -68,6 +71,7 @@ def show_turn(title: str, flight: "SteadyFlight", as_json: bool) -> None:
             "ballast volume": number(row["ballast_volume_ml"], 1, "ml"),
             "rudder": number(row["rudder_deg"], 2, "deg"),
             "roll of moving mass": number(row["roll_mass_deg"], 2, "deg"),
+            "stable": "yes" if stable else "no: the vehicle leaves this flight by itself",
             "residual": f"{row['residual']:.1e} N, N m",
         },
     )

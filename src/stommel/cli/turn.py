@@ -61,4 +61,4 @@ def turn(
         physics=physics_of(physics),
         within_limits=not ignore_limits,
     )
-    show_turn(f"{glider.name}: steady turn", flight, as_json)
+    show_turn("steady turn", glider, flight, physics_of(physics), as_json)

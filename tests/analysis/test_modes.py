@@ -147,8 +147,7 @@ def test_fig_4_rudder_aft_stabilises_every_lateral_mode(zju: stommel.Vehicle) ->
 
 
 def test_section_3_2_authority_falls_as_stability_grows(zju: stommel.Vehicle) -> None:
-    """Rudder farther aft: more yaw stiffness and damping, fewer degrees per second of turn for a degree of rudder, against
-    what the longer arm of the rudder itself adds; shown per unit of rudder moment."""
+    """A rudder farther aft turns the vehicle less per unit of its moment: yaw stiffness and damping grow faster."""
     locus = stommel.root_locus(zju, "rudder_position", 0.5, 1.0, points=11)
     rates = np.array([able.turn_rate_deg_s_per_rudder_deg for able in locus.authorities], dtype=float)
     per_moment = rates / locus.values
@@ -199,7 +198,7 @@ def test_root_locus_over_any_number(zju: stommel.Vehicle, over: str, start: floa
 def test_root_locus_refuses_what_it_cannot_vary(zju: stommel.Vehicle) -> None:
     with pytest.raises(FileError, match="no number of this vehicle has this key"):
         stommel.root_locus(zju, "wing.colour", 0.0, 1.0)
-    with pytest.raises(FileError, match="at moving_mass.mass_kg = -1 kg: .*greater than 0"):
+    with pytest.raises(FileError, match=r"at moving_mass\.mass_kg = -1 kg: .*greater than 0"):
         stommel.root_locus(zju, "moving_mass.mass_kg", -1.0, 1.0)
     with pytest.raises(stommel.StommelError, match=r"no table \[hull\] or no table \[wing\]"):
         stommel.root_locus(stommel.load_vehicle("slocum"), "wing_position", 0.0, 0.2)
@@ -228,7 +227,7 @@ def test_turn_authority_against_a_steady_turn(zju: stommel.Vehicle) -> None:
 
 
 def test_spiral_diverges_in_steep_dives(zju: stommel.Vehicle) -> None:
-    """A finding, not a wish: with the cited lateral coefficients the ZJU glider's spiral is unstable beyond about -39 deg."""
+    """A finding, not a wish: with the cited lateral coefficients the spiral is unstable beyond about -39 deg."""
     assert is_stable(zju, stommel.trim(zju, speed_m_s=0.4, pitch_deg=-35.0))
     assert not is_stable(zju, stommel.trim(zju, speed_m_s=0.4, pitch_deg=-45.0))
 

@@ -95,7 +95,7 @@ def test_settings_give_back_the_flight(speed: float, pitch: float) -> None:
     found = stommel.steady_flight(
         zju, moving_mass_mm=wanted.r_px * 1e3, ballast_ml=wanted.V_b * 1e6, within_limits=False
     )
-    assert found.V == pytest.approx(speed, rel=1e-9)
+    assert pytest.approx(speed, rel=1e-9) == found.V
     assert degrees(found.theta) == pytest.approx(pitch, rel=1e-9)
 
 
@@ -145,7 +145,7 @@ def test_best_glide_closed_form() -> None:
 
 
 def test_fastest_flight_against_a_dense_table() -> None:
-    """Greatest horizontal speed near -35 deg, as the paper takes from Graver (2005); a table of flights finds none faster."""
+    """Greatest horizontal speed near -35 deg, as the paper takes from Graver (2005), against 20 001 flights."""
     zju = stommel.load_vehicle("zju")
     fastest = stommel.best_conditions(zju, ballast_ml=-250.0).fastest
     assert degrees(fastest.theta) == pytest.approx(-35.0, abs=1.0)

@@ -27,7 +27,7 @@ def test_slocum_graver_2005(sign: int) -> None:
 def test_rogue_at_30_deg(sign: int) -> None:
     """alpha 6.3, theta -23.7 deg, moving mass 0.41 cm.
 
-    Mismatch of print: the published net 0.36 kg is 0.354 kg by the same paper's coefficients; 0.363 kg is the -45 deg flight.
+    Mismatch of print: the net 0.36 kg is 0.354 kg by the same coefficients; 0.363 kg is the -45 deg flight.
     """
     rogue = stommel.load_vehicle("rogue")
     flight = stommel.trim(rogue, speed_m_s=0.30, glide_path_deg=sign * 30.0)
@@ -41,7 +41,7 @@ def test_rogue_at_30_deg(sign: int) -> None:
 def test_rogue_at_45_deg(sign: int) -> None:
     """Net 0.36 kg, moving mass 2.2 cm.
 
-    Mismatch of print: alpha 3.5 and theta -41.5 deg are 3.44 and -41.56 deg; the print adds up only with alpha rounded up.
+    Mismatch of print: alpha 3.5 and theta -41.5 deg are 3.44 and -41.56 deg.
     """
     rogue = stommel.load_vehicle("rogue")
     flight = stommel.trim(rogue, speed_m_s=0.37, glide_path_deg=sign * 45.0)

@@ -1,7 +1,7 @@
 """Oracle: Tables 1 and 2 of Fan et al. (2013), as printed.
 
-The bars are those of the project's design: 0.05 mm, 0.007 deg and 0.06 ml, a little more than half a unit of the last printed
-digit, because the paper's own parameters are known only from its tables.
+The bars are 0.05 mm, 0.007 deg and 0.06 ml, a little more than half a unit of the last printed digit, because the
+paper's own parameters are known only from its tables.
 """
 
 from math import degrees

@@ -1,6 +1,6 @@
 """Square root, arctangent and arcsine that accept a complex step.
 
-A complex step h of about 1e-30 carries a derivative in the imaginary part [Squire and Trapp 1998]:
+A tiny complex step h (1e-40) carries a derivative in the imaginary part [Squire and Trapp 1998]:
 f(x + i h) = f(x) + i h f'(x) + O(h^2), where the O(h^2) is far below rounding. The complex functions of the C
 library are slow and lose such small imaginary parts, so these propagate them to first order, exactly as a dual number
 would. Real arguments go straight to the C library.

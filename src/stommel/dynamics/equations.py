@@ -31,10 +31,16 @@ from stommel.dynamics.vectors import (
 
 
 @inlined
+def displaced_volume(vehicle: np.record, water: Water, V_b: float) -> float:
+    """V_veh: volume of the hull under pressure and heat, and of the ballast [m3]."""
+    V_veh: float = vehicle.V_0 * (1.0 - vehicle.kappa * water.P + vehicle.alpha_T * (water.T - vehicle.T_0)) + V_b
+    return V_veh
+
+
+@inlined
 def net_weight(vehicle: np.record, water: Water, V_b: float) -> float:
     """W = m g - rho g V_veh [N], positive sinks; in reference water with a rigid hull the paper's -rho g V_b."""
-    V_veh = vehicle.V_0 * (1.0 - vehicle.kappa * water.P + vehicle.alpha_T * (water.T - vehicle.T_0)) + V_b
-    W: float = (vehicle.m - water.rho * V_veh) * vehicle.g
+    W: float = (vehicle.m - water.rho * displaced_volume(vehicle, water, V_b)) * vehicle.g
     return W
 
 
@@ -75,7 +81,7 @@ def rates(vehicle: np.record, x: State, actuation: Actuation, water: Water, free
     s = static_moment(vehicle, water, r_p, V_b)
 
     # what the current adds: the accelerated water pushes the hull, and its momentum follows the relative velocity
-    f_U = scale(water.rho * vehicle.V_0, to_body(x.Q, water.DU_Dt))
+    f_U = scale(water.rho * displaced_volume(vehicle, water, V_b), to_body(x.Q, water.DU_Dt))
     p_f = add(symmetric_times(vehicle.M_f, eta.v_r), transpose_times(vehicle.C_f, omega))
     m_U = cross(p_f, subtract(v, eta.v_r))
 

@@ -8,9 +8,9 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 _UNITS = {
-    "kg_m2": "kg m2", "kg_m3": "kg/m3", "kg_m": "kg/m", "kg_s": "kg s", "m_s2": "m/s2", "m_s": "m/s", "mm_s": "mm/s",
-    "ml_s": "ml/s", "deg_s": "deg/s", "per_pa": "1/Pa", "per_k": "1/K", "days": "days", "kg": "kg", "mm": "mm",
-    "ml": "ml", "deg": "degrees", "ah": "A h", "v": "V", "c": "deg C", "m": "m",
+    "coupling_kg_m": "kg m", "kg_m2": "kg m2", "kg_m3": "kg/m3", "kg_m": "kg/m", "kg_s": "kg s", "m_s2": "m/s2",
+    "m_s": "m/s", "mm_s": "mm/s", "ml_s": "ml/s", "deg_s": "deg/s", "per_pa": "1/Pa", "per_k": "1/K", "days": "days",
+    "kg": "kg", "mm": "mm", "ml": "ml", "deg": "degrees", "ah": "A h", "v": "V", "c": "deg C", "m": "m",
 }  # fmt: skip
 
 _RANGES = {
@@ -24,7 +24,7 @@ _RANGES = {
 def unit_of(key: str) -> str | None:
     """Unit that the name of a key ends with, in words, or None."""
     name = key.rsplit(".", 1)[-1]
-    return next((words for suffix, words in _UNITS.items() if name.endswith("_" + suffix)), None)
+    return next((words for suffix, words in _UNITS.items() if f"_{name}".endswith(f"_{suffix}")), None)
 
 
 def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[str, str]]:

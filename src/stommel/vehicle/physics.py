@@ -1,4 +1,4 @@
-"""Switches between the paper's model and a real glider (docs/theory/physics)."""
+"""Switches between the paper's model and a real glider (docs/theory/vehicle)."""
 
 from dataclasses import dataclass
 

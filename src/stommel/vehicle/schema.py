@@ -11,10 +11,10 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
-Finite = Annotated[float, Field(allow_inf_nan=False)]
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
-NotPositive = Annotated[float, Field(le=0, allow_inf_nan=False)]
+Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[float, Field(strict=True, gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(strict=True, ge=0, allow_inf_nan=False)]
+NotPositive = Annotated[float, Field(strict=True, le=0, allow_inf_nan=False)]
 Point = tuple[Finite, Finite, Finite]
 Interval = tuple[Finite, Finite]
 Row = tuple[Finite, Finite, Finite]
@@ -56,16 +56,16 @@ class Specification(Table):
     mass_kg: Positive
     oil_volume_ml: Positive
     depth_m: Positive
-    pitch_deg: Annotated[float, Field(gt=0, lt=90)]
-    rudder_deg: Annotated[float, Field(gt=0, le=90)] | None = None
+    pitch_deg: Annotated[float, Field(strict=True, gt=0, lt=90)]
+    rudder_deg: Annotated[float, Field(strict=True, gt=0, le=90)] | None = None
     endurance_days: Positive | None = None
     speed_m_s: Positive | None = None
     """Greatest speed along the path that the design must reach."""
     design_speed_m_s: Positive | None = None
     """Speed of Table 1: pitch is varied at this speed."""
-    design_pitch_deg: Annotated[float, Field(gt=0, lt=90)] | None = None
+    design_pitch_deg: Annotated[float, Field(strict=True, gt=0, lt=90)] | None = None
     """Magnitude of the pitch of Table 2: speed is varied at this pitch."""
-    shallowest_pitch_deg: Annotated[float, Field(gt=0, lt=90)] = 5.0
+    shallowest_pitch_deg: Annotated[float, Field(strict=True, gt=0, lt=90)] = 5.0
     """Magnitude of the shallowest pitch that the design must fly at the design speed."""
 
     @model_validator(mode="after")
@@ -77,9 +77,9 @@ class Specification(Table):
 class ReferenceWater(Table):
     """Water in which the vehicle is trimmed neutral."""
 
-    density_kg_m3: Annotated[float, Field(ge=900, le=1200)]
-    temperature_c: Annotated[float, Field(ge=-3, le=45)] = 15.0
-    gravity_m_s2: Annotated[float, Field(ge=9.7, le=9.9)] = 9.81
+    density_kg_m3: Annotated[float, Field(strict=True, ge=900, le=1200)]
+    temperature_c: Annotated[float, Field(strict=True, ge=-3, le=45)] = 15.0
+    gravity_m_s2: Annotated[float, Field(strict=True, ge=9.7, le=9.9)] = 9.81
 
 
 class RigidBody(Table):
@@ -138,8 +138,8 @@ class Hydrodynamics(Table):
     yaw_damping_kg_s: NotPositive | None = None
     moments_along: Literal["body", "flow"] = "body"
     """Axes of the moments: the body's as in the paper, or the flow's as in Graver (2005) and Zhang et al. (2013)."""
-    stall_begins_deg: Annotated[float, Field(gt=0, lt=60)] = 15.0
-    stall_ends_deg: Annotated[float, Field(gt=0, lt=90)] = 30.0
+    stall_begins_deg: Annotated[float, Field(strict=True, gt=0, lt=60)] = 15.0
+    stall_ends_deg: Annotated[float, Field(strict=True, gt=0, lt=90)] = 30.0
     broadside_drag_kg_m: Positive | None = None
     """Normal force of the separated flow at 90 degrees; the lift slope where it is not given."""
 
@@ -193,7 +193,7 @@ class BuoyancyEngine(Table):
     flow_ml_s: Positive | None = None
     bladder_position_m: Point | None = None
     reservoir_position_m: Point | None = None
-    oil_density_kg_m3: Annotated[float, Field(ge=500, le=1500)] | None = None
+    oil_density_kg_m3: Annotated[float, Field(strict=True, ge=500, le=1500)] | None = None
 
     @property
     def volume_m3(self) -> tuple[float, float]:
@@ -209,7 +209,7 @@ class BuoyancyEngine(Table):
 class RudderDrive(Table):
     """Travel and speed of the rudder."""
 
-    travel_deg: Annotated[float, Field(gt=0, le=90)]
+    travel_deg: Annotated[float, Field(strict=True, gt=0, le=90)]
     """To either side."""
     speed_deg_s: Positive | None = None
 
@@ -222,7 +222,7 @@ class RudderDrive(Table):
 class RollDrive(Table):
     """Travel and speed of the moving mass about the longitudinal axis."""
 
-    travel_deg: Annotated[float, Field(gt=0, le=180)]
+    travel_deg: Annotated[float, Field(strict=True, gt=0, le=180)]
     """To either side."""
     speed_deg_s: Positive | None = None
 

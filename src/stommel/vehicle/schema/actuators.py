@@ -1,0 +1,81 @@
+"""What the vehicle can do: travel, volume and speed of its actuators."""
+
+from math import radians
+from typing import Annotated, Self
+
+from pydantic import Field, model_validator
+
+from stommel.vehicle.schema.fields import Interval, Point, Positive, Table, ordered
+
+
+class MovingMassDrive(Table):
+    """Travel and speed of the moving mass along the hull."""
+
+    travel_mm: Interval
+    """Positions of the mass forward of the centre of buoyancy, aft end first."""
+    speed_mm_s: Positive | None = None
+
+    @property
+    def travel_m(self) -> tuple[float, float]:
+        """Travel in metres."""
+        return self.travel_mm[0] / 1e3, self.travel_mm[1] / 1e3
+
+    @model_validator(mode="after")
+    def _travel_is_an_interval(self) -> Self:
+        ordered("travel_mm", self.travel_mm)
+        return self
+
+
+class BuoyancyEngine(Table):
+    """Volume and flow of the buoyancy engine; zero is neutral."""
+
+    volume_ml: Interval
+    flow_ml_s: Positive | None = None
+    bladder_position_m: Point | None = None
+    reservoir_position_m: Point | None = None
+    oil_density_kg_m3: Annotated[float, Field(strict=True, ge=500, le=1500)] | None = None
+
+    @property
+    def volume_m3(self) -> tuple[float, float]:
+        """Range of the ballast volume in cubic metres."""
+        return self.volume_ml[0] / 1e6, self.volume_ml[1] / 1e6
+
+    @model_validator(mode="after")
+    def _volume_is_an_interval(self) -> Self:
+        ordered("volume_ml", self.volume_ml)
+        return self
+
+
+class RudderDrive(Table):
+    """Travel and speed of the rudder."""
+
+    travel_deg: Annotated[float, Field(strict=True, gt=0, le=90)]
+    """To either side."""
+    speed_deg_s: Positive | None = None
+
+    @property
+    def travel_rad(self) -> float:
+        """Travel to either side in radians."""
+        return radians(self.travel_deg)
+
+
+class RollDrive(Table):
+    """Travel and speed of the moving mass about the longitudinal axis."""
+
+    travel_deg: Annotated[float, Field(strict=True, gt=0, le=180)]
+    """To either side."""
+    speed_deg_s: Positive | None = None
+
+    @property
+    def travel_rad(self) -> float:
+        """Travel to either side in radians."""
+        return radians(self.travel_deg)
+
+
+class Actuators(Table):
+    """What the vehicle can do; an actuator without limits may be left out."""
+
+    moving_mass: MovingMassDrive | None = None
+    buoyancy: BuoyancyEngine | None = None
+    rudder: RudderDrive | None = None
+    roll: RollDrive | None = None

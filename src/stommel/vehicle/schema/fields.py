@@ -1,0 +1,40 @@
+"""What the tables of a vehicle file are made of: numbers with ranges, points, tensors, intervals."""
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[float, Field(strict=True, gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(strict=True, ge=0, allow_inf_nan=False)]
+NotPositive = Annotated[float, Field(strict=True, le=0, allow_inf_nan=False)]
+Point = tuple[Finite, Finite, Finite]
+Interval = tuple[Finite, Finite]
+Row = tuple[Finite, Finite, Finite]
+Matrix3 = tuple[Row, Row, Row]
+
+ZERO_MATRIX: Matrix3 = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+def _as_matrix(value: Any) -> Any:
+    """Take [xx, yy, zz] for a diagonal matrix."""
+    if isinstance(value, list | tuple) and len(value) == 3 and all(isinstance(v, int | float) for v in value):
+        xx, yy, zz = value
+        return ((xx, 0.0, 0.0), (0.0, yy, 0.0), (0.0, 0.0, zz))
+    return value
+
+
+Tensor = Annotated[Matrix3, BeforeValidator(_as_matrix)]
+"""Symmetric 3 x 3 tensor: [xx, yy, zz], or three rows."""
+
+
+class Table(BaseModel):
+    """A table of a vehicle file."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=False)
+
+
+def ordered(name: str, interval: Interval) -> None:
+    """Refuse an interval whose ends are swapped."""
+    if not interval[0] < interval[1]:
+        raise ValueError(f"{name} = {list(interval)}: the first number must be less than the second")

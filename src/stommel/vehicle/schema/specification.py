@@ -1,0 +1,42 @@
+"""What the vehicle is asked to do, and the water it is trimmed for."""
+
+from typing import Annotated, Self
+
+from pydantic import Field, model_validator
+
+from stommel.vehicle.schema.fields import Positive, Table, ordered
+
+
+class Specification(Table):
+    """What the vehicle is asked to do: Table 3 of the paper, and the flight that section 3.1 designs for."""
+
+    body_length_m: Positive
+    overall_length_m: Positive
+    diameter_mm: Positive
+    mass_kg: Positive
+    oil_volume_ml: Positive
+    depth_m: Positive
+    pitch_deg: Annotated[float, Field(strict=True, gt=0, lt=90)]
+    rudder_deg: Annotated[float, Field(strict=True, gt=0, le=90)] | None = None
+    endurance_days: Positive | None = None
+    speed_m_s: Positive | None = None
+    """Greatest speed along the path that the design must reach."""
+    design_speed_m_s: Positive | None = None
+    """Speed of Table 1: pitch is varied at this speed."""
+    design_pitch_deg: Annotated[float, Field(strict=True, gt=0, lt=90)] | None = None
+    """Magnitude of the pitch of Table 2: speed is varied at this pitch."""
+    shallowest_pitch_deg: Annotated[float, Field(strict=True, gt=0, lt=90)] = 5.0
+    """Magnitude of the shallowest pitch that the design must fly at the design speed."""
+
+    @model_validator(mode="after")
+    def _pitches_are_ordered(self) -> Self:
+        ordered("shallowest_pitch_deg to pitch_deg", (self.shallowest_pitch_deg, self.pitch_deg))
+        return self
+
+
+class ReferenceWater(Table):
+    """Water in which the vehicle is trimmed neutral."""
+
+    density_kg_m3: Annotated[float, Field(strict=True, ge=900, le=1200)]
+    temperature_c: Annotated[float, Field(strict=True, ge=-3, le=45)] = 15.0
+    gravity_m_s2: Annotated[float, Field(strict=True, ge=9.7, le=9.9)] = 9.81

@@ -1,0 +1,55 @@
+"""A glider, as its file describes it."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from stommel.vehicle.schema.actuators import Actuators
+from stommel.vehicle.schema.fields import Table
+from stommel.vehicle.schema.hull import Battery, Bay, Hull
+from stommel.vehicle.schema.hydrodynamics import Hydrodynamics, Rudder, Wing
+from stommel.vehicle.schema.masses import AddedInertia, Ballast, MovingMass, RigidBody
+from stommel.vehicle.schema.specification import ReferenceWater, Specification
+
+
+class VehicleFile(Table):
+    """A glider, as its file describes it."""
+
+    format: Literal[1] = 1
+    name: Annotated[str, Field(min_length=1)]
+    summary: str = ""
+    notes: tuple[str, ...] = ()
+    """Known slips and limits of the sources; the report prints them."""
+    specification: Specification | None = None
+    water: ReferenceWater
+    rigid_body: RigidBody
+    moving_mass: MovingMass
+    ballast: Ballast
+    added_inertia: AddedInertia
+    hydrodynamics: Hydrodynamics
+    wing: Wing | None = None
+    rudder: Rudder | None = None
+    actuators: Actuators = Actuators()
+    hull: Hull | None = None
+    bays: tuple[Bay, ...] = ()
+    battery: Battery | None = None
+
+    @property
+    def mass_kg(self) -> float:
+        """Total mass m = m_rb + m_p + m_b [kg]."""
+        return self.rigid_body.mass_kg + self.moving_mass.mass_kg + self.ballast.mass_kg
+
+    def unknown_lateral(self) -> Iterator[str]:
+        """Keys that sideways motion needs and this vehicle's sources do not give."""
+        if self.added_inertia.sway_kg is None:
+            yield "added_inertia.sway_kg"
+        for key in (
+            "side_force_per_rad_kg_m",
+            "roll_moment_per_rad_kg",
+            "yaw_moment_per_rad_kg",
+            "roll_damping_kg_s",
+            "yaw_damping_kg_s",
+        ):
+            if getattr(self.hydrodynamics, key) is None:
+                yield f"hydrodynamics.{key}"

@@ -95,5 +95,5 @@ def _draw_against(axes: "Axes", locus: RootLocus, trade: TradeOff) -> None:
     axes.set_ylim(*at_least_span(float(np.min(shares)), float(np.max(shares)), 20.0))
     note = f"○ {number(locus.values[0])}   □ {number(locus.values[-1])}   × {number(locus.values[k])}"
     if float(np.ptp(across)) < 1.0:
-        note += "\ncontrol authority changes by less than 1 %"
+        note += "\nauthority changes\nby less than 1 %"
     axes.text(0.985, 0.985, note, transform=axes.transAxes, ha="right", va="top", fontsize=8.6, color=MUTED)

@@ -34,7 +34,7 @@ def vehicle_figure(vehicle: Vehicle) -> "Figure":
     d = vehicle.description
     radius = d.hull.outer_diameter_mm / 2e3 if d.hull else _reach(d) * 0.11
     (left, right), (low, high) = _limits(d, radius)
-    figure = new_figure(9.2, 1.45 + 8.4 * (high - low) / (right - left))
+    figure = new_figure(9.2, 1.3 + 8.4 * (high - low) / (right - left))
     axes = figure.subplots()
     axes.set_xlim(left, right)
     axes.set_ylim(low, high)
@@ -139,7 +139,7 @@ def _limits(d: VehicleFile, radius: float) -> tuple[tuple[float, float], tuple[f
         return (-reach, reach), (-0.3 * reach, 0.2 * reach)
     bow = d.hull.nose_position_m + d.hull.nose_length_m
     stern = d.hull.nose_position_m - d.hull.length_m - d.hull.tail_length_m
-    return (stern - 0.06, bow + 0.06), (-1.35 * radius, (3.1 if d.bays else 1.5) * radius)
+    return (stern - 0.06, bow + 0.06), (-1.35 * radius, (2.7 if d.bays else 1.5) * radius)
 
 
 def _label_axes(axes: "Axes", d: VehicleFile, radius: float) -> None:

@@ -228,7 +228,9 @@ def _lagrangian(s: SimpleNamespace, q: Any, q_dot: Any, t: Any) -> Any:
     masses = s.m_rb * down(s.r_rb) + s.m_b * down(s.r_b) + s.m_p * down(r_p)
     oil = s.rho_oil * V_b * (down(s.r_bl) - down(s.r_res))
     displaced = s.rho * (s.V_0 * q[:, 2] + V_b * down(s.r_bl))
-    accelerated_water = s.rho * s.V_0 * _dot(s.U_dot, q[:, :3])  # its pressure gradient pushes the hull
+    # the pressure gradient of accelerated water pushes every displaced volume where it is, as gravity's does
+    at_bladder = q[:, :3] + anp.einsum("nij,nj->ni", R, s.r_bl)
+    accelerated_water = s.rho * (s.V_0 * _dot(s.U_dot, q[:, :3]) + V_b * _dot(s.U_dot, at_bladder))
     return T + s.g * (masses + oil - displaced) + accelerated_water
 
 

@@ -76,10 +76,15 @@ def stepped(x: State, x_dot: State) -> State:
 
 @compiled
 def accelerations(vehicle: np.record, x: State, actuation: Actuation, water: Water, free: bool) -> Accelerations:
-    """Accelerations in the state `x`; rudder, roll and speed of the moving mass and the pump flow stay as they are."""
-    x_dot = rates(vehicle, x, actuation, water, free)
-    eta = velocities(vehicle, stepped(x, x_dot), actuation, water, free)
+    """Accelerations in the state `x`: speed of the moving mass, its rolling, rudder and pump flow stay as they are.
+
+    The current is taken as steady and uniform along the way: its change would enter through the added inertia.
+    """
     h = COMPLEX_STEP
+    x_dot = rates(vehicle, x, actuation, water, free)
+    u = actuation
+    moved = Actuation(u.r_px_dot, u.u_px, u.u_b, u.delta_r, _step(u.mu, u.mu_dot), u.mu_dot)
+    eta = velocities(vehicle, stepped(x, x_dot), moved, water, free)
     v, omega = eta.v, eta.omega
     return Accelerations(
         (v[0].imag / h, v[1].imag / h, v[2].imag / h),

@@ -81,16 +81,19 @@ def rates(vehicle: np.record, x: State, actuation: Actuation, water: Water, free
     s = static_moment(vehicle, water, r_p, V_b)
 
     # what the current adds: the accelerated water pushes the hull, and its momentum follows the relative velocity
-    f_U = scale(water.rho * displaced_volume(vehicle, water, V_b), to_body(x.Q, water.DU_Dt))
+    a_U = to_body(x.Q, water.DU_Dt)
+    f_U = scale(water.rho * displaced_volume(vehicle, water, V_b), a_U)
+    r_bl, displaced = vehicle.r_bl, water.rho * V_b
+    m_bl = cross((displaced * r_bl[0], displaced * r_bl[1], displaced * r_bl[2]), a_U)  # at the bladder
     p_f = add(symmetric_times(vehicle.M_f, eta.v_r), transpose_times(vehicle.C_f, omega))
-    m_U = cross(p_f, subtract(v, eta.v_r))
+    m_U = subtract(m_bl, cross(p_f, subtract(v, eta.v_r)))
 
     X_dot = to_inertial(x.Q, v)  # (1)
     Q_dot = quaternion_rate(x.Q, omega)  # (2)
     p_dot = add(add(cross(x.p, omega), scale(W, zeta)), add(f_v, f_U))  # (4)
     h_dot = add(
         add(cross(x.h, omega), cross(x.p, v)),
-        subtract(add(scale(g, cross(s, zeta)), m_v), m_U),
+        add(add(scale(g, cross(s, zeta)), m_v), m_U),
     )  # (5)
     p_px_dot = cross(p_p, omega)[0] + m_p * g * zeta[0] + actuation.u_px if free else 0.0 * x.p_px  # (6)
     V_b_dot = actuation.u_b + 0.0 * V_b  # (7)

@@ -11,7 +11,7 @@ import numpy as np
 
 from stommel.dynamics.compilation import inlined
 from stommel.dynamics.elementary import asin, atan2, real_part, sqrt
-from stommel.dynamics.vectors import Vector, add, scale
+from stommel.dynamics.vectors import Vector, add, scale, subtract
 
 
 class ViscousForces(NamedTuple):
@@ -37,6 +37,8 @@ def _separation(vehicle, angle):  # type: ignore[no-untyped-def]  # real or comp
     """Share of separated flow: 0 up to alpha_attached, 1 from alpha_separated on (smootherstep)."""
     magnitude = angle if real_part(angle) >= 0.0 else -angle
     s = (magnitude - vehicle.alpha_attached) / (vehicle.alpha_separated - vehicle.alpha_attached)
+    if real_part(s) <= 0.0:
+        return 0.0 * s
     if real_part(s) >= 1.0:
         return 0.0 * s + 1.0
     return s * s * s * (10.0 + s * (6.0 * s - 15.0))
@@ -67,14 +69,15 @@ def _separated(  # type: ignore[no-untyped-def]  # real or complex
     abs_sin_alpha = sin_alpha if real_part(sin_alpha) >= 0.0 else -sin_alpha
     abs_sin_beta = sin_beta if real_part(sin_beta) >= 0.0 else -sin_beta
     normal = vehicle.K_N * sin_alpha * abs_sin_alpha
-    a = _separation(vehicle, alpha) if abs(real_part(alpha)) > vehicle.alpha_attached else 0.0 * alpha
-    b = _separation(vehicle, beta) if abs(real_part(beta)) > vehicle.alpha_attached else 0.0 * beta
+    a, b = _separation(vehicle, alpha), _separation(vehicle, beta)
     in_plane = _blend(b, 1.0, cos_beta * cos_beta)  # incidence means nothing in pure sideways flow
-    astern = _blend(a, 1.0, cos_alpha)  # the rudder loses its grip as the flow comes from abeam or astern
+    # the rudder loses its grip as the flow comes from abeam or astern
+    astern = _blend(a, 1.0, cos_alpha) * _blend(b, 1.0, cos_beta)
     D = _blend(a, attached.D, vehicle.K_D0 + normal * sin_alpha)
     return _Coefficients(
         D=_blend(b, D, D * cos_beta * cos_beta + vehicle.K_N * sin_beta * sin_beta * abs_sin_beta),
-        S=_blend(b, vehicle.S_beta * beta, vehicle.K_N * sin_beta * abs_sin_beta) + astern * vehicle.S_delta * delta_r,
+        S=_blend(b, vehicle.S_beta * beta, vehicle.K_N * sin_beta * abs_sin_beta * cos_beta)
+        + astern * vehicle.S_delta * delta_r,
         L=in_plane * _blend(a, attached.L, normal * cos_alpha),
         K=_blend(b, vehicle.K_beta * beta, vehicle.K_beta * sin_beta * cos_beta) + astern * vehicle.K_delta * delta_r,
         M=in_plane * _blend(a, attached.M, vehicle.M_zero * cos_alpha + vehicle.M_alpha * sin_alpha * cos_alpha),
@@ -128,5 +131,8 @@ def viscous_forces(vehicle: np.record, v_r: Vector, omega: Vector, delta_r: floa
         (D_omega[2] * V_square + D_omega_V[2] * V) * omega[2] + c.N * V_square,
     )
     if vehicle.moments_in_flow_frame != 0.0:
-        m_v = from_flow_to_body(m_v, sin_alpha, cos_alpha, sin_beta, cos_beta)
+        # beyond stall along the body's axes: turned by 180 degrees, the damping would drive
+        m_flow = from_flow_to_body(m_v, sin_alpha, cos_alpha, sin_beta, cos_beta)
+        a, b = _separation(vehicle, alpha), _separation(vehicle, beta)
+        m_v = add(m_flow, scale(a + b - a * b, subtract(m_v, m_flow)))
     return ViscousForces(f_v, m_v)

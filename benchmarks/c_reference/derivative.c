@@ -278,7 +278,7 @@ static inline void rates(const params *p, const double *x, const controls *u, co
     const double V_veh = p->V_0 * (1.0 - p->kappa * w->P + p->alpha_T * (w->T - p->T_0)) + V_b;
     const double W = (p->m - w->rho * V_veh) * p->g;
     const vec3 moment_arm = sub(add(p->s_0, add(m_r, oil)), scale(w->rho * V_b, b));
-    const vec3 f_U = scale(w->rho * p->V_0, mat_tmul(&R, w->DU_Dt));
+    const vec3 f_U = scale(w->rho * V_veh, mat_tmul(&R, w->DU_Dt));
     const vec3 p_f = add(sym_mul(&p->M_f, v_r), mat_tmul(&p->C_f, omega));
 
     const vec3 X_dot = mat_mul(&R, v);

@@ -11,6 +11,7 @@ _UNITS = {
     "coupling_kg_m": "kg m", "kg_m2": "kg m2", "kg_m3": "kg/m3", "kg_m": "kg/m", "kg_s": "kg s", "m_s2": "m/s2",
     "m_s": "m/s", "mm_s": "mm/s", "ml_s": "ml/s", "deg_s": "deg/s", "per_pa": "1/Pa", "per_k": "1/K", "days": "days",
     "kg": "kg", "mm": "mm", "ml": "ml", "deg": "degrees", "ah": "A h", "v": "V", "c": "deg C", "m": "m",
+    "w": "W", "j": "J", "s": "s",
 }  # fmt: skip
 
 _RANGES = {

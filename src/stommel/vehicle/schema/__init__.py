@@ -6,8 +6,9 @@ refused.
 """
 
 from stommel.vehicle.schema.actuators import Actuators, BuoyancyEngine, MovingMassDrive, RollDrive, RudderDrive
+from stommel.vehicle.schema.energy import Battery, Consumer, EnergyPlan
 from stommel.vehicle.schema.fields import Matrix3, Point
-from stommel.vehicle.schema.hull import Battery, Bay, Hull
+from stommel.vehicle.schema.hull import Bay, Hull
 from stommel.vehicle.schema.hydrodynamics import Hydrodynamics, Rudder, Wing
 from stommel.vehicle.schema.masses import AddedInertia, Ballast, MovingMass, RigidBody
 from stommel.vehicle.schema.specification import ReferenceWater, Specification
@@ -20,6 +21,8 @@ __all__ = [
     "Battery",
     "Bay",
     "BuoyancyEngine",
+    "Consumer",
+    "EnergyPlan",
     "Hull",
     "Hydrodynamics",
     "Matrix3",

@@ -1,4 +1,4 @@
-"""Pressure hull, bays and battery."""
+"""Pressure hull and bays."""
 
 from math import pi
 from typing import Self
@@ -57,11 +57,3 @@ class Bay(Table):
         if self.to_m >= self.from_m:
             raise ValueError(f"to_m = {self.to_m:g}: must be aft of (less than) from_m = {self.from_m:g}")
         return self
-
-
-class Battery(Table):
-    """Energy store."""
-
-    capacity_ah: Positive
-    voltage_v: Positive
-    chemistry: str

@@ -6,8 +6,9 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from stommel.vehicle.schema.actuators import Actuators
+from stommel.vehicle.schema.energy import Battery, Consumer, EnergyPlan
 from stommel.vehicle.schema.fields import Table
-from stommel.vehicle.schema.hull import Battery, Bay, Hull
+from stommel.vehicle.schema.hull import Bay, Hull
 from stommel.vehicle.schema.hydrodynamics import Hydrodynamics, Rudder, Wing
 from stommel.vehicle.schema.masses import AddedInertia, Ballast, MovingMass, RigidBody
 from stommel.vehicle.schema.specification import ReferenceWater, Specification
@@ -34,6 +35,8 @@ class VehicleFile(Table):
     hull: Hull | None = None
     bays: tuple[Bay, ...] = ()
     battery: Battery | None = None
+    energy: EnergyPlan | None = None
+    consumers: tuple[Consumer, ...] = ()
 
     @property
     def mass_kg(self) -> float:

@@ -1,0 +1,126 @@
+"""Where the energy comes from and where it goes: battery, consumers, and what the vehicle does between dives."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from stommel.vehicle.schema.fields import Finite, NotNegative, Positive, Table
+
+Share = Annotated[float, Field(strict=True, ge=0, le=1)]
+"""A part of a whole."""
+PositiveShare = Annotated[float, Field(strict=True, gt=0, le=1)]
+
+
+class Battery(Table):
+    """Energy store."""
+
+    capacity_ah: Positive
+    voltage_v: Positive
+    """Mean voltage over the discharge, by which the charge becomes energy."""
+    chemistry: str
+    usable_fraction: PositiveShare | None = None
+    """What may be taken of the rated energy: the reserve that is kept and the end of discharge are left out."""
+    self_discharge_per_month: Share | None = None
+    """Part of the rated energy that is lost in 30 days without any load."""
+    derating_temperature_c: tuple[Finite, ...] = ()
+    """Temperatures at which `derating_fraction` is known, rising."""
+    derating_fraction: tuple[PositiveShare, ...] = ()
+    """Part of the rated capacity that is available at these temperatures; straight lines between them."""
+
+    @model_validator(mode="after")
+    def _derating_is_a_function(self) -> Self:
+        temperatures, fractions = self.derating_temperature_c, self.derating_fraction
+        if len(temperatures) != len(fractions):
+            raise ValueError(
+                f"derating_temperature_c has {len(temperatures)} numbers and derating_fraction has {len(fractions)}; "
+                "they must have the same number"
+            )
+        if any(b <= a for a, b in zip(temperatures, temperatures[1:], strict=False)):
+            raise ValueError(f"derating_temperature_c = {list(temperatures)}: must rise from number to number")
+        return self
+
+
+class EnergyPlan(Table):
+    """What a mission does beside gliding: surfacing, steering, corrections; and how power reaches the consumers."""
+
+    regulator_efficiency: PositiveShare
+    """Of the converters between the battery and the consumers whose supply is `regulated`."""
+    surface_session_s: NotNegative
+    """Time at the surface with the antenna out: position fix and radio."""
+    dives_per_surfacing: Annotated[int, Field(ge=1)] = 1
+    """Dives from one surfacing to the next; between them the vehicle turns at `upper_turn_m`."""
+    upper_turn_m: NotNegative = 10.0
+    """Depth of the upper turn of dives that do not surface."""
+    surface_ballast_ml: Finite | None = None
+    """Ballast volume that raises the antenna; the greatest of the buoyancy engine if left out."""
+    slowest_speed_m_s: Positive
+    """Slowest speed along the path at which the vehicle is flown; the search for the best speed begins here."""
+    rudder_turns_per_dive: NotNegative = 0.0
+    """Times that the rudder is put over and back in a dive."""
+    rudder_turn_deg: Annotated[float, Field(strict=True, ge=0, le=90)] = 0.0
+    """Angle to which it is put over."""
+    pitch_corrections_per_dive: NotNegative = 0.0
+    """Times that the moving mass is moved and moved back to hold the pitch in a dive."""
+    pitch_correction_mm: NotNegative = 0.0
+    """Travel of such a correction, one way."""
+    pump_efficiency: PositiveShare | None = None
+    """Pressure work over electrical energy of motor and pump; used where the file does not describe the engine."""
+    pump_idle_power_w: NotNegative = 0.0
+    """Electrical power of motor and pump that does no pressure work; used beside `pump_efficiency`."""
+    valve_power_w: NotNegative = 0.0
+    """Power of the solenoid valve while the bladder empties; used beside `pump_efficiency`."""
+    pitch_drive_efficiency: PositiveShare | None = None
+    """Work against gravity over electrical energy; used where the file does not describe the drive."""
+    pitch_drive_idle_power_w: NotNegative = 0.0
+    """Electrical power of the pitch drive that lifts nothing; used beside `pitch_drive_efficiency`."""
+    rudder_turn_j: NotNegative | None = None
+    """Electrical energy of putting the rudder over and back; used where the file does not describe the drive."""
+
+
+class Consumer(Table):
+    """Something that takes electrical power, and when."""
+
+    name: Annotated[str, Field(min_length=1)]
+    part: Literal["controller", "sensors", "navigation", "communication", "hotel"]
+    """What it is counted with."""
+    power_w: NotNegative
+    """Power while it is on, at its own terminals."""
+    standby_w: NotNegative = 0.0
+    """Power while it is off."""
+    on: Literal["always", "underwater", "dive", "climb", "surface", "moving"] = "always"
+    """When it works; `moving` is while an actuator moves, `surface` while the antenna is out."""
+    duty: Share | None = None
+    """Part of that time in which it is on; all of it if left out."""
+    sample_s: Positive | None = None
+    """Sampling plan instead of a duty: seconds on for a sample."""
+    sample_every_s: Positive | None = None
+    """Seconds from one sample to the next."""
+    seconds_per_surfacing: NotNegative | None = None
+    """Seconds on at each surfacing, instead of a duty; needs `on = "surface"`."""
+    supply: Literal["battery", "regulated"] = "regulated"
+    """Whether it is fed by the battery itself or through the converters."""
+
+    @property
+    def share_on(self) -> float:
+        """Part of its time in which it is on; 1 where neither a duty nor a sampling plan is given."""
+        if self.sample_s is not None and self.sample_every_s is not None:
+            return self.sample_s / self.sample_every_s
+        return 1.0 if self.duty is None else self.duty
+
+    @model_validator(mode="after")
+    def _one_plan(self) -> Self:
+        if (self.sample_s is None) != (self.sample_every_s is None):
+            raise ValueError(f"{self.name!r}: sample_s and sample_every_s go together")
+        plans = [self.duty is not None, self.sample_s is not None, self.seconds_per_surfacing is not None]
+        if sum(plans) > 1:
+            raise ValueError(
+                f"{self.name!r}: give one of duty, sample_s with sample_every_s, and seconds_per_surfacing"
+            )
+        if self.share_on > 1.0:
+            raise ValueError(
+                f"{self.name!r}: sample_s = {self.sample_s:g} every sample_every_s = {self.sample_every_s:g} is a duty "
+                f"of {self.share_on:g}; must be at most 1"
+            )
+        if self.seconds_per_surfacing is not None and self.on != "surface":
+            raise ValueError(f'{self.name!r}: seconds_per_surfacing needs on = "surface", not "{self.on}"')
+        return self

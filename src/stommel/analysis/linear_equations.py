@@ -10,6 +10,7 @@ import numpy as np
 from stommel.analysis.steady_equations import ALPHA, BETA, COMPLEX_STEP, DELTA_R, MU, PHI, R_PX, THETA, TURN, V_B, V
 from stommel.dynamics.attitude import quaternion_from_euler
 from stommel.dynamics.compilation import compiled, inlined
+from stommel.dynamics.elementary import cos, sin
 from stommel.dynamics.equations import rates
 from stommel.dynamics.inertia import inertia, momenta, solve
 from stommel.dynamics.state import Actuation, State, Water
@@ -34,11 +35,11 @@ def _state_rates(vehicle, s, settings, water, out):  # type: ignore[no-untyped-d
     x = State((zero, zero, zero), Q, momentum.p, momentum.h, settings[0], zero, settings[1])
     x_dot = rates(vehicle, x, actuation, water, False)
     v_dot, omega_dot = solve(inertia(vehicle, settings[0], settings[3], settings[1], False), x_dot.p, x_dot.h)
-    turn = (q * np.sin(phi) + r * np.cos(phi)) / np.cos(theta)
+    turn = (q * sin(phi) + r * cos(phi)) / cos(theta)
     out[U_], out[V_], out[W_] = v_dot
     out[P_], out[Q_], out[R_] = omega_dot
-    out[THETA_] = q * np.cos(phi) - r * np.sin(phi)
-    out[PHI_] = p + turn * np.sin(theta)
+    out[THETA_] = q * cos(phi) - r * sin(phi)
+    out[PHI_] = p + turn * sin(theta)
 
 
 @compiled

@@ -10,7 +10,7 @@ import numpy as np
 
 from stommel.dynamics.attitude import quaternion_from_euler
 from stommel.dynamics.compilation import compiled, inlined
-from stommel.dynamics.elementary import sqrt
+from stommel.dynamics.elementary import cos, sin, sqrt
 from stommel.dynamics.equations import rates
 from stommel.dynamics.inertia import momenta
 from stommel.dynamics.state import Actuation, State, Water
@@ -36,11 +36,11 @@ COMPLEX_STEP = 1e-40
 @inlined
 def steady_rates(vehicle, z, water):  # type: ignore[no-untyped-def]  # z real or complex
     """Rates of the state in the flight `z`; p' and h' vanish in steady flight."""
-    cos_beta = np.cos(z[BETA])
+    cos_beta = cos(z[BETA])
     v = (
-        z[V] * np.cos(z[ALPHA]) * cos_beta,
-        z[V] * np.sin(z[BETA]),
-        z[V] * np.sin(z[ALPHA]) * cos_beta,
+        z[V] * cos(z[ALPHA]) * cos_beta,
+        z[V] * sin(z[BETA]),
+        z[V] * sin(z[ALPHA]) * cos_beta,
     )
     Q = quaternion_from_euler(z[PHI], z[THETA], 0.0 * z[PHI])
     omega = scale(z[TURN], down_in_body(Q))

@@ -3,15 +3,16 @@
 import numpy as np
 
 from stommel.dynamics.compilation import inlined
+from stommel.dynamics.elementary import cos, sin
 from stommel.dynamics.vectors import Quaternion, Vector
 
 
 @inlined
 def quaternion_from_euler(phi: float, theta: float, psi: float) -> Quaternion:
     """Quaternion of roll `phi`, pitch `theta` and heading `psi` [rad]."""
-    c1, s1 = np.cos(0.5 * phi), np.sin(0.5 * phi)
-    c2, s2 = np.cos(0.5 * theta), np.sin(0.5 * theta)
-    c3, s3 = np.cos(0.5 * psi), np.sin(0.5 * psi)
+    c1, s1 = cos(0.5 * phi), sin(0.5 * phi)
+    c2, s2 = cos(0.5 * theta), sin(0.5 * theta)
+    c3, s3 = cos(0.5 * psi), sin(0.5 * psi)
     return (
         c1 * c2 * c3 + s1 * s2 * s3,
         s1 * c2 * c3 - c1 * s2 * s3,

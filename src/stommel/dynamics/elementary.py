@@ -1,4 +1,4 @@
-"""Square root, arctangent and arcsine that accept a complex step.
+"""Square root, sine, cosine, arctangent and arcsine that accept a complex step.
 
 A tiny complex step h (1e-40) carries a derivative in the imaginary part [Squire and Trapp 1998]:
 f(x + i h) = f(x) + i h f'(x) + O(h^2), where the O(h^2) is far below rounding. The complex functions of the C
@@ -25,6 +25,16 @@ def atan2(y: float, x: float) -> float:
 def asin(x: float) -> float:
     """Arcsine [rad] of `x`, in [-pi/2, pi/2]."""
     return math.asin(x)
+
+
+def cos(x: float) -> float:
+    """Cosine of the angle `x` [rad]."""
+    return math.cos(x)
+
+
+def sin(x: float) -> float:
+    """Sine of the angle `x` [rad]."""
+    return math.sin(x)
 
 
 def real_part(x: float) -> float:
@@ -65,6 +75,20 @@ def _asin(x):  # type: ignore[no-untyped-def]  # Numba compares signatures
 
         return complex_asin
     return lambda x: math.asin(x)
+
+
+@overload(cos)
+def _cos(x):  # type: ignore[no-untyped-def]  # Numba compares signatures
+    if isinstance(x, types.Complex):
+        return lambda x: complex(math.cos(x.real), -math.sin(x.real) * x.imag)
+    return lambda x: math.cos(x)
+
+
+@overload(sin)
+def _sin(x):  # type: ignore[no-untyped-def]  # Numba compares signatures
+    if isinstance(x, types.Complex):
+        return lambda x: complex(math.sin(x.real), math.cos(x.real) * x.imag)
+    return lambda x: math.sin(x)
 
 
 @overload(real_part)

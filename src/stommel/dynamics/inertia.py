@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from stommel.dynamics.compilation import inlined
+from stommel.dynamics.elementary import cos, sin
 from stommel.dynamics.state import Actuation, State, Water
 from stommel.dynamics.vectors import (
     Matrix,
@@ -29,6 +30,7 @@ from stommel.dynamics.vectors import (
     scale,
     subtract,
     symmetric_inverse,
+    symmetric_solve,
     symmetric_times,
     to_body,
     transpose_times,
@@ -60,16 +62,9 @@ class Velocities(NamedTuple):
 
 
 @inlined
-def _cos_sin(mu):  # type: ignore[no-untyped-def]  # real or complex
-    if mu == 0.0:
-        return 1.0 + 0.0 * mu, 0.0 * mu
-    return np.cos(mu), np.sin(mu)
-
-
-@inlined
 def moving_mass_position(vehicle: np.record, r_px: float, mu: float) -> Vector:
     """r_p: position of the moving mass in the body frame [m]; it hangs below b1 for mu = 0."""
-    c, s = _cos_sin(mu)
+    c, s = cos(mu), sin(mu)
     return (r_px, -vehicle.R_p * s, vehicle.R_p * c)
 
 
@@ -86,7 +81,7 @@ def inertia(vehicle: np.record, r_px: float, mu: float, V_b: float, free: bool) 
     """M_p(r_p) + M_b + M_rb + M_f without the row and column of the moving mass, which `free` leaves out along b1."""
     axial = 0.0 if free else 1.0
     m_p = vehicle.m_p
-    c, s = _cos_sin(mu)
+    c, s = cos(mu), sin(mu)
     x, y, z = r_px, -vehicle.R_p * s, vehicle.R_p * c
     M_0, C_0, J_0, J_p = vehicle.M_0, vehicle.C_0, vehicle.J_0, vehicle.J_p
 
@@ -132,7 +127,7 @@ def inertia(vehicle: np.record, r_px: float, mu: float, V_b: float, free: bool) 
 def actuator_momenta(vehicle: np.record, r_px: float, actuation: Actuation, axial_momentum: float) -> Momenta:
     """Momenta of what moves inside the hull, relative to it: moving mass (axial, rolling) and flowing oil."""
     m_p, mu_dot = vehicle.m_p, actuation.mu_dot
-    c, s = _cos_sin(actuation.mu)
+    c, s = cos(actuation.mu), sin(actuation.mu)
     y, z = -vehicle.R_p * s, vehicle.R_p * c
     J_p = vehicle.J_p
     flow = vehicle.rho_oil * actuation.u_b
@@ -176,25 +171,16 @@ def velocities(vehicle: np.record, x: State, actuation: Actuation, water: Water,
 
 @inlined
 def solve(blocks: Inertia, p: Vector, h: Vector) -> tuple[Vector, Vector]:
-    """Solve M v + C' omega = p and C v + J omega = h for (v, omega)."""
+    """Solve M v + C' omega = p and C v + J omega = h for (v, omega), by the rows c_i of C and d_i of C M^-1."""
     M, C, J = blocks
     M_inverse = symmetric_inverse(M)
-    v_0 = symmetric_times(M_inverse, p)
-    omega = symmetric_times(symmetric_inverse(_schur_complement(M_inverse, C, J)), subtract(h, matrix_times(C, v_0)))
-    v = subtract(v_0, symmetric_times(M_inverse, transpose_times(C, omega)))
-    return v, omega
-
-
-@inlined
-def _schur_complement(M_inverse: Symmetric, C: Matrix, J: Symmetric) -> Symmetric:
-    """J - C M^-1 C'."""
     c_1, c_2, c_3 = (C[0], C[1], C[2]), (C[3], C[4], C[5]), (C[6], C[7], C[8])
     d_1, d_2, d_3 = (
         symmetric_times(M_inverse, c_1),
         symmetric_times(M_inverse, c_2),
         symmetric_times(M_inverse, c_3),
     )
-    return (
+    schur_complement = (  # J - C M^-1 C'
         J[0] - dot(c_1, d_1),
         J[1] - dot(c_2, d_2),
         J[2] - dot(c_3, d_3),
@@ -202,6 +188,10 @@ def _schur_complement(M_inverse: Symmetric, C: Matrix, J: Symmetric) -> Symmetri
         J[4] - dot(c_1, d_3),
         J[5] - dot(c_2, d_3),
     )
+    h_of_p = (dot(d_1, p), dot(d_2, p), dot(d_3, p))
+    omega = symmetric_solve(schur_complement, subtract(h, h_of_p))
+    v = symmetric_times(M_inverse, subtract(p, transpose_times(C, omega)))
+    return v, omega
 
 
 @inlined

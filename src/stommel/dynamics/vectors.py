@@ -93,28 +93,49 @@ def symmetric_inverse(S: Symmetric) -> Symmetric:
 
 
 @inlined
+def symmetric_solve(S: Symmetric, b: Vector) -> Vector:
+    """Solution x of S x = b for a symmetric positive definite matrix; the division runs beside the products."""
+    xx = S[1] * S[2] - S[5] * S[5]
+    xy = S[4] * S[5] - S[3] * S[2]
+    xz = S[3] * S[5] - S[1] * S[4]
+    adjugate = (xx, S[0] * S[2] - S[4] * S[4], S[0] * S[1] - S[3] * S[3], xy, xz, S[3] * S[4] - S[0] * S[5])
+    return scale(1.0 / (S[0] * xx + S[3] * xy + S[4] * xz), symmetric_times(adjugate, b))
+
+
+@inlined
+def rotation(Q: Quaternion) -> Matrix:
+    """R_IB of a unit quaternion."""
+    w, x, y, z = Q
+    return (
+        1.0 - 2.0 * (y * y + z * z),
+        2.0 * (x * y - w * z),
+        2.0 * (x * z + w * y),
+        2.0 * (x * y + w * z),
+        1.0 - 2.0 * (x * x + z * z),
+        2.0 * (y * z - w * x),
+        2.0 * (x * z - w * y),
+        2.0 * (y * z + w * x),
+        1.0 - 2.0 * (x * x + y * y),
+    )
+
+
+@inlined
 def to_inertial(Q: Quaternion, a: Vector) -> Vector:
     """R_IB a: components in the inertial frame of the body-frame vector `a`, for a unit quaternion."""
-    e = (Q[1], Q[2], Q[3])
-    t = cross(e, a)
-    t = (2.0 * t[0], 2.0 * t[1], 2.0 * t[2])
-    return add(add(a, scale(Q[0], t)), cross(e, t))
+    return matrix_times(rotation(Q), a)
 
 
 @inlined
 def to_body(Q: Quaternion, a: Vector) -> Vector:
     """R_IB' a: components in the body frame of the inertial vector `a`, for a unit quaternion."""
-    return to_inertial((Q[0], -Q[1], -Q[2], -Q[3]), a)
+    return transpose_times(rotation(Q), a)
 
 
 @inlined
 def down_in_body(Q: Quaternion) -> Vector:
     """The tilt vector zeta = R_IB' i3: the direction of gravity in the body frame."""
-    return (
-        2.0 * (Q[1] * Q[3] - Q[0] * Q[2]),
-        2.0 * (Q[2] * Q[3] + Q[0] * Q[1]),
-        1.0 - 2.0 * (Q[1] * Q[1] + Q[2] * Q[2]),
-    )
+    R = rotation(Q)
+    return (R[6], R[7], R[8])
 
 
 @inlined

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stommel.analysis import Modes, RootLocus
-from stommel.design.plots.root_locus_plot import Plane, flight_of, planes_of, varied
+from stommel.design.plots.root_locus_plot import Plane, heading, planes_of
 from stommel.design.plots.style import CYCLE, DASHES, INK, MUTED, at_least_span, new_figure, number, styled
 from stommel.design.plots.trade_off import TradeOff, trade_off
 
@@ -29,8 +29,7 @@ def authority_figure(locus: RootLocus, plane: Plane | None = None, modes: Modes 
     """
     trade = trade_off(locus, plane or planes_of(locus)[0], modes)
     figure = new_figure(9.2, 4.9)
-    title = f"{varied(locus)[0].upper()}{varied(locus)[1:]}   ·   {flight_of(locus)}"
-    figure.suptitle(title, fontsize=9.5, x=0.012, ha="left")
+    figure.suptitle(heading(locus), fontsize=9.5, x=0.012, ha="left")
     panels = figure.subplot_mosaic([["decay", "against"], ["authority", "against"]], width_ratios=(1.0, 1.1))
     _draw_decay(panels["decay"], locus, trade)
     _draw_authority(panels["authority"], locus, trade)
@@ -62,8 +61,7 @@ def _draw_decay(axes: "Axes", locus: RootLocus, trade: TradeOff) -> None:
 
 def _draw_authority(axes: "Axes", locus: RootLocus, trade: TradeOff) -> None:
     axes.set_title("Control authority")
-    what = varied(locus).split(" from ")[0]
-    axes.set_xlabel(f"{what[0].upper()}{what[1:]}{f' [{locus.unit}]' if locus.unit else ''}")
+    axes.set_xlabel(f"{heading(locus).split(' from ')[0]}{f' [{locus.unit}]' if locus.unit else ''}")
     _mark_design(axes, locus)
     if trade.authority is None:
         axes.text(0.5, 0.5, "no steering actuator", transform=axes.transAxes, ha="center", color=MUTED)
@@ -79,18 +77,18 @@ def _draw_against(axes: "Axes", locus: RootLocus, trade: TradeOff) -> None:
     axes.set_title("One against the other")
     axes.set_xlabel("Control authority, % of design")
     axes.set_ylabel("Decay rate, % of design")
-    if trade.authority is None:
-        axes.text(0.5, 0.5, "no steering actuator", transform=axes.transAxes, ha="center", color=MUTED)
-        return
     k = int(np.argmin(np.abs(locus.values - locus.design_value)))
+    if trade.authority is None or trade.authority[k] == 0.0:
+        axes.text(0.5, 0.5, "no authority to compare with", transform=axes.transAxes, ha="center", color=MUTED)
+        return
     across = 100.0 * trade.authority / trade.authority[k]
     ends: dict[str, Any] = {"markersize": 6.0, "markerfacecolor": "white", "markeredgecolor": INK, "zorder": 4}
-    shares = [100.0 * decay.rate / decay.rate[k] for decay in trade.decays]
+    shares = [100.0 * decay.rate / (abs(decay.rate[k]) or 1.0) for decay in trade.decays]
     for j, share in enumerate(shares):
         axes.plot(across, share, color=CYCLE[j], linestyle=DASHES[j], gid="against")
         axes.plot(across[0], share[0], "o", gid="start", **ends)
         axes.plot(across[-1], share[-1], "s", gid="end", **ends)
-    axes.plot(100.0, 100.0, "x", color=INK, markersize=8.5, markeredgewidth=1.9, zorder=5, gid="design")
+        axes.plot(100.0, share[k], "x", color=INK, markersize=8.5, markeredgewidth=1.9, zorder=5, gid="design")
     axes.set_xlim(*at_least_span(float(across.min()), float(across.max()), 20.0))
     axes.set_ylim(*at_least_span(float(np.min(shares)), float(np.max(shares)), 20.0))
     note = f"○ {number(locus.values[0])}   □ {number(locus.values[-1])}   × {number(locus.values[k])}"

@@ -35,9 +35,12 @@ def varied(locus: RootLocus) -> str:
     return f"{words} from {number(locus.values[0])} to {number(locus.values[-1])}{unit}"
 
 
-def flight_of(locus: RootLocus) -> str:
-    """The flight that the locus is about."""
-    return f"{number(locus.speed_m_s)} m/s at pitch {number(locus.pitch_deg)}°"
+def heading(locus: RootLocus) -> str:
+    """What is varied from where to where, and the flight that the locus is about."""
+    words = varied(locus)
+    if locus.over in _WORDS:
+        words = words[0].upper() + words[1:]
+    return f"{words}   ·   {number(locus.speed_m_s)} m/s at pitch {number(locus.pitch_deg)}°"
 
 
 @styled
@@ -55,9 +58,7 @@ def root_locus_figure(locus: RootLocus, plane: Plane | None = None, modes: Modes
     """
     planes = (plane,) if plane is not None else planes_of(locus)
     figure = new_figure(7.0 if len(planes) == 1 else 10.0, 4.9)
-    figure.suptitle(
-        f"{varied(locus)[0].upper()}{varied(locus)[1:]}   ·   {flight_of(locus)}", fontsize=9.5, x=0.012, ha="left"
-    )
+    figure.suptitle(heading(locus), fontsize=9.5, x=0.012, ha="left")
     panels = figure.subplots(1, len(planes), squeeze=False)[0]
     for axes, name in zip(panels, planes, strict=True):
         branches, design = (locus.longitudinal, locus.design_longitudinal)

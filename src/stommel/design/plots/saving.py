@@ -1,6 +1,7 @@
 """Figures as files: PNG and SVG with the same bytes for the same figure."""
 
 import io
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,7 +33,19 @@ def svg_text(figure: "Figure") -> str:
         FigureCanvasSVG(figure).print_figure(
             stream, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None}
         )
-    return stream.getvalue().decode("utf-8")
+    return _with_unique_identifiers(stream.getvalue().decode("utf-8"))
+
+
+def _with_unique_identifiers(svg: str) -> str:
+    """Number the identifiers that several artists share; none of these is referred to."""
+    seen: dict[str, int] = {}
+
+    def unique(match: re.Match[str]) -> str:
+        name = match.group(1)
+        seen[name] = seen.get(name, 0) + 1
+        return match.group(0) if seen[name] == 1 else f'<g id="{name}-{seen[name]}"'
+
+    return re.sub(r'<g id="([^"]+)"', unique, svg)
 
 
 def save_figure(figure: "Figure", stem: Path) -> list[Path]:

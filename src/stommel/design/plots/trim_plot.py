@@ -62,8 +62,9 @@ def _draw_quantity(axes: "Axes", rows: tuple[ComparedRow, ...], x: list[float], 
             [at for at, _ in broken], [value for _, value in broken], "x", color=VERMILION, markersize=8,
             markeredgewidth=1.8, linestyle="none", label="beyond a limit of the vehicle file", gid="beyond", zorder=4,
         )  # fmt: skip
-    _draw_limit(axes, [excess for row in rows for excess in row.trim.beyond if excess.reason is reason])
-    if max(values) - min(values) < 0.02 * max(map(abs, values)):
+    excesses = [excess for row in rows for excess in row.trim.beyond if excess.reason is reason]
+    _draw_limit(axes, excesses)
+    if not excesses and max(values) - min(values) < 0.02 * max(map(abs, values)):
         middle = 0.5 * (max(values) + min(values))  # nearly constant: do not blow up the last digits
         axes.set_ylim(middle - 0.02 * abs(middle), middle + 0.02 * abs(middle))
     axes.set_title(name)
@@ -76,5 +77,5 @@ def _draw_limit(axes: "Axes", excesses: list[Excess]) -> None:
         axes.axhline(limit, color=MUTED, linewidth=1.0, linestyle=(0, (4, 3)), gid="limit")
         axes.annotate(
             f"limit {limit:g} {excess.unit}".replace("-", "−"), (0.02, limit), xycoords=("axes fraction", "data"),
-            xytext=(0, 3), textcoords="offset points", fontsize=8.2, color=MUTED,
+            xytext=(0, 3), textcoords="offset points", fontsize=8.2, color=MUTED, in_layout=False,
         )  # fmt: skip

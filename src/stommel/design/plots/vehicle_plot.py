@@ -88,8 +88,20 @@ def _draw_bays(axes: "Axes", d: VehicleFile, radius: float) -> None:
         colour = SKY if bay.flooded else INK
         axes.plot([bay.from_m - 0.008, bay.to_m + 0.008], [y, y], color=colour, linewidth=2.4, solid_capstyle="butt",
                   zorder=3, gid=f"bay-{k}")  # fmt: skip
-        name = fill(bay.name, max(6, int(52 * width))) + ("\n(flooded)" if bay.flooded else "")
-        axes.text(middle, y + 0.18 * radius, name, ha="center", va="bottom", fontsize=8.0, color=INK, linespacing=1.15)
+        name = bay.name if _can_be_drawn(bay.name) else f"bay {k + 1}"
+        label = fill(name, max(6, int(52 * width)), max_lines=3, placeholder="...")
+        axes.text(
+            middle, y + 0.18 * radius, label + ("\n(flooded)" if bay.flooded else ""), ha="center", va="bottom",
+            fontsize=8.0, color=INK, linespacing=1.15, parse_math=False,
+        )  # fmt: skip
+
+
+def _can_be_drawn(text: str) -> bool:
+    """Whether the font that matplotlib ships has every character."""
+    from matplotlib.font_manager import findfont, get_font  # noqa: PLC0415 - start-up counts
+
+    font = get_font(findfont("DejaVu Sans"))
+    return all(font.get_char_index(ord(character)) for character in text)
 
 
 def _draw_surfaces(axes: "Axes", d: VehicleFile) -> None:

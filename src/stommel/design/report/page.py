@@ -12,7 +12,7 @@ from stommel.analysis.limits import excesses
 from stommel.design.plots import planes_of
 from stommel.design.report import wording
 from stommel.design.report.figures import figures
-from stommel.design.report.readings import locus_reading, locus_title
+from stommel.design.report.readings import locus_heading, locus_reading
 from stommel.design.report.verdict import at_stall, nearest_limit, summary, verdict
 from stommel.design.study import DesignStudy
 from stommel.vehicle import PHYSICS, Physics, builtin_names
@@ -105,7 +105,7 @@ def _context(study: DesignStudy) -> dict[str, Any]:
             if model is not None
         ],
         "loci": [
-            (k, locus, locus_title(locus), " ".join(locus_reading(locus, study.modes)), planes_of(locus))
+            (k, locus, locus_heading(locus), " ".join(locus_reading(locus, study.modes)), planes_of(locus))
             for k, locus in enumerate(study.loci)
         ],
         "loci_missing": [(part, why) for part, why in wording.unanswered_notes(study) if part.startswith("root locus")],

@@ -20,6 +20,12 @@ def locus_title(locus: RootLocus, verb: str = "") -> str:
     return f"{what}{verb} from {short(locus.values[0])} to {short(locus.values[-1])}{unit}"
 
 
+def locus_heading(locus: RootLocus) -> str:
+    """The title as a heading; the key of a file keeps its small letters."""
+    title = locus_title(locus).removeprefix("the ")
+    return title[0].upper() + title[1:] if locus.over in NAMES else title
+
+
 def locus_reading(locus: RootLocus, modes: Modes | None) -> list[str]:
     """Sentences on the damping of the modes and on control authority along a locus, plane by plane."""
     sentences = []
@@ -66,8 +72,9 @@ def _damping_sentences(locus: RootLocus, trade: TradeOff) -> list[str]:
         sentences.append(f"That of the slowest mode, {slowest.name}, {_change(slowest.rate, '1/s')}.")
     unstable = locus.values[np.min([decay.rate for decay in trade.decays], axis=0) <= 0.0]
     if len(unstable):
-        ends = sorted({short(unstable[0]), short(unstable[-1])})
-        sentences.append(f"The vehicle is unstable at {' to '.join(ends)}{f' {locus.unit}' if locus.unit else ''}.")
+        ends = " to ".join(dict.fromkeys((short(unstable[0]), short(unstable[-1]))))
+        unit = f" {locus.unit}" if locus.unit else ""
+        sentences.append(f"The vehicle is unstable at {ends}{unit}; there a final change of the flight has no meaning.")
     return sentences
 
 

@@ -115,7 +115,8 @@ def _speed(study: DesignStudy) -> Answer:
     flights = [(row.fastest, row) for row in study.envelope if row.fastest is not None]
     if not flights:
         return Answer(question, "none", "No steady flight is within the limits of the vehicle file.", "bad")
-    fastest, row = max(flights, key=lambda pair: pair[0].V)
+    # diving and climbing often tie but for rounding: then name the dive
+    fastest, row = max(flights, key=lambda pair: (round(pair[0].V, 9), -pair[1].pitch_deg))
     detail = (
         f"At pitch {fixed(row.pitch_deg, 0)}°, horizontally {fixed(fastest.horizontal_speed)} m/s; limited by "
         f"{row.limited_by}."

@@ -63,7 +63,7 @@ def why_unanswered(study: DesignStudy, part: str) -> str:
         name, found, reason = note.partition(_UNANSWERED)
         if found and name == part:
             return reason.removeprefix(f"{study.vehicle.name}: ")
-    return "the vehicle file does not say enough"
+    return "nothing that was tried is within the limits of the vehicle file"
 
 
 def source_notes(study: DesignStudy) -> list[str]:

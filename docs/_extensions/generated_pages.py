@@ -5,7 +5,10 @@ They are written to docs/_generated before Sphinx reads its sources, so that the
 
 import ast
 import inspect
+import os
 import pkgutil
+import subprocess
+import sys
 import tomllib
 from collections.abc import Iterator
 from importlib import import_module
@@ -124,6 +127,16 @@ def reference_page(package: str) -> str:
     return "\n".join(page)
 
 
+def validation_report() -> str:
+    """Measure the validation report, in a process where the equations are compiled."""
+    program = Path(__file__).with_name("write_validation.py")
+    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_DISABLE_JIT"}
+    done = subprocess.run([sys.executable, program], env=environment, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        logger.warning("the validation report could not be measured: %s", done.stderr)
+    return done.stdout
+
+
 def _write(path: Path, text: str) -> None:
     """Write only what changed, so that Sphinx need not read it again."""
     if not path.exists() or path.read_text(encoding="utf-8") != text:
@@ -136,6 +149,7 @@ def write_pages(app: Sphinx) -> None:
     folder = Path(app.srcdir) / "_generated"
     meanings = tomllib.loads((Path(app.srcdir) / "guide" / "meanings.toml").read_text(encoding="utf-8"))["meaning"]
     _write(folder / "vehicle-file.md", "".join(vehicle_tables(meanings)))
+    _write(folder / "validation.md", validation_report())
     packages = [f"stommel.{info.name}" for info in pkgutil.iter_modules(stommel.__path__) if info.ispkg]
     reference = folder / "reference"
     for package in ["stommel", *packages]:

@@ -219,6 +219,21 @@ def test_pitch_authority_against_two_trims(zju: stommel.Vehicle) -> None:
     assert able.speed_m_s_per_ml == pytest.approx((near[1].V - near[0].V) / 0.2, rel=1e-5)
 
 
+def test_fig_3_wing_aft_limits_pitch_authority(zju: stommel.Vehicle) -> None:
+    """Section 3.2: a wing farther aft may limit pitch control authority, by the longer arm of its forces."""
+    locus = stommel.root_locus(zju, "wing_position", 0.0, 0.2, points=11)
+    peaks = [able.peak_pitch_rate_deg_s_per_mm for able in locus.authorities]
+    assert (np.diff(peaks) < 0).all()
+
+
+def test_peak_pitch_rate_against_a_simulated_step(zju: stommel.Vehicle) -> None:
+    linear = linearise(zju, stommel.trim(zju, speed_m_s=0.4, pitch_deg=-35.0))
+    times = np.linspace(0.0, 20.0, 4001)
+    response = control.step_response(linear.longitudinal.to_control(), times, input_indices=0, output_indices=2)
+    peak = degrees(float(np.abs(response.outputs).max())) * 1e-3
+    assert stommel.authority(linear).peak_pitch_rate_deg_s_per_mm == pytest.approx(peak, rel=1e-3)
+
+
 def test_turn_authority_against_a_steady_turn(zju: stommel.Vehicle) -> None:
     flight = stommel.trim(zju, speed_m_s=0.4, pitch_deg=-35.0)
     able = stommel.authority(linearise(zju, flight)).turn_rate_deg_s_per_rudder_deg

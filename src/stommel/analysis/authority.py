@@ -5,11 +5,11 @@ scale. With x' = A x + B u the final change of a stable flight is -A^-1 B u.
 """
 
 from dataclasses import dataclass
-from math import cos, degrees, radians
+from math import cos, degrees, pi, radians
 
 import numpy as np
 
-from stommel.analysis.linearization import Linearization
+from stommel.analysis.linearization import Linearization, LinearModel
 
 
 @dataclass(frozen=True)
@@ -22,6 +22,8 @@ class Authority:
     """Speed along the path per millilitre of ballast."""
     initial_pitch_acceleration_deg_s2_per_mm: float
     """Pitch acceleration at once, before the flight answers."""
+    peak_pitch_rate_deg_s_per_mm: float
+    """Greatest pitch rate that a step of the moving mass reaches: how briskly the vehicle can be pitched."""
     turn_rate_deg_s_per_rudder_deg: float | None
     """None without a rudder or without lateral coefficients."""
     turn_rate_deg_s_per_roll_deg: float | None
@@ -43,9 +45,19 @@ def authority(linear: Linearization) -> Authority:
         pitch_deg_per_mm=degrees(final[3, 0]) * 1e-3,
         speed_m_s_per_ml=float(speed_per_m3) * 1e-6,
         initial_pitch_acceleration_deg_s2_per_mm=degrees(longitudinal.B[2, 0]) * 1e-3,
+        peak_pitch_rate_deg_s_per_mm=_peak_pitch_rate(longitudinal),
         turn_rate_deg_s_per_rudder_deg=rudder,
         turn_rate_deg_s_per_roll_deg=roll,
     )
+
+
+def _peak_pitch_rate(longitudinal: LinearModel) -> float:
+    """Greatest |q| [deg/s per mm] after a step of r_px, over five periods or time constants of the fastest mode."""
+    values, vectors = np.linalg.eig(longitudinal.A)
+    shares = np.linalg.solve(vectors, longitudinal.B[:, 0])
+    times = np.linspace(0.0, 5.0 * 2.0 * pi / float(np.abs(values).max()), 400)
+    q = ((np.exp(np.outer(times, values)) - 1.0) / values * shares) @ vectors[2]
+    return degrees(float(np.abs(q.real).max())) * 1e-3
 
 
 def _turn_rates(linear: Linearization) -> tuple[float | None, float | None]:

@@ -1,7 +1,8 @@
 """Flight envelope: what actuator ranges reach, and which ranges a wanted region needs (section 3.1 of the paper)."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import ceil, degrees, radians
 
 import numpy as np
@@ -61,10 +62,35 @@ def flight_envelope(
     if pitches_deg is None:
         steep = [1.0, 2.0, 3.0, 4.0, *range(5, 90, 5), 88.0]
         pitches_deg = [*(-p for p in reversed(steep)), *steep]
+        return _with_pitch_limits(vehicle, pitches_deg, physics, water)
     water = water or reference_water(vehicle)
     record = pack(vehicle, physics)
     low, high = engine.volume_m3
     return [_envelope_row(vehicle, record, water, float(pitch), low if pitch <= 0 else high) for pitch in pitches_deg]
+
+
+def _with_pitch_limits(
+    vehicle: Vehicle, pitches_deg: Sequence[float], physics: Physics, water: Water | None
+) -> list[EnvelopeRow]:
+    """Rows at the given pitches, and at the last reachable pitch wherever reach begins or ends between two of them."""
+
+    def row_at(pitch: float) -> EnvelopeRow:
+        (row,) = flight_envelope(vehicle, pitches_deg=[pitch], physics=physics, water=water)
+        return row
+
+    rows = [row_at(float(pitch)) for pitch in pitches_deg]
+    complete = rows[:1]
+    for before, after in pairwise(rows):
+        if (before.fastest is None) != (after.fastest is None) and before.pitch_deg * after.pitch_deg > 0:
+            inside, outside = (before, after) if after.fastest is None else (after, before)
+            limit = inside
+            while abs(inside.pitch_deg - outside.pitch_deg) > 1e-3:
+                middle = row_at(0.5 * (inside.pitch_deg + outside.pitch_deg))
+                inside, outside = (inside, middle) if middle.fastest is None else (middle, outside)
+                limit = inside
+            complete.append(replace(limit, limited_by=outside.limited_by))
+        complete.append(after)
+    return complete
 
 
 def _envelope_row(vehicle: Vehicle, record: np.record, water: Water, pitch_deg: float, V_limit: float) -> EnvelopeRow:

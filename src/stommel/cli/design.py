@@ -76,7 +76,9 @@ def _show(study: "DesignStudy") -> None:
     title = f"Modes at {flight.V:g} m/s, pitch {degrees(flight.theta):g} deg"
     show_table(title, ["mode", "real\n1/s", "imaginary\n1/s", "time to half\ns"], rows)
     for note in study.notes:
-        show_values("note", {"": note})
+        show_values("Note", {"": note})
+    for part, reason in study.unanswered:
+        show_values("Not answered", {part: reason})
 
 
 def _verdict(study: "DesignStudy") -> dict[str, str]:
@@ -130,5 +132,6 @@ def _as_json(study: "DesignStudy", path: Path | None) -> dict[str, Any]:
         "authority": study.authority.as_row(),
         "turns": [flight.as_turn() for flight in study.turns],
         "notes": list(study.notes),
+        "unanswered": dict(study.unanswered),
         "report": str(path) if path is not None else None,
     }

@@ -88,6 +88,7 @@ def _show_authority(able: "Authority") -> None:
     values = {
         "pitch per moving mass": number(able.pitch_deg_per_mm, 4, "deg/mm"),
         "speed per ballast": number(able.speed_m_s_per_ml * 1e3, 3, "mm/s per ml"),
+        "peak pitch rate": number(able.peak_pitch_rate_deg_s_per_mm, 4, "deg/s per mm, after a step"),
         "initial pitch acceleration": number(able.initial_pitch_acceleration_deg_s2_per_mm, 4, "deg/s2 per mm"),
     }
     if able.turn_rate_deg_s_per_rudder_deg is not None:

@@ -99,12 +99,12 @@ def _show(name: str, locus: "RootLocus") -> None:
                 f"{locus.values[k]:.4g}",
                 _eigenvalues(locus.longitudinal[k]),
                 _eigenvalues(lateral[k]) if lateral is not None else "-",
-                number(able.pitch_deg_per_mm, 3),
+                number(able.peak_pitch_rate_deg_s_per_mm, 4),
                 number(able.turn_rate_deg_s_per_rudder_deg, 3),
             ]
         )
     unit = f"\n{locus.unit}" if locus.unit else ""
-    columns = [f"value{unit}", "longitudinal\n1/s", "lateral\n1/s", "deg\nper mm", "deg/s\nper deg"]
+    columns = [f"value{unit}", "longitudinal\n1/s", "lateral\n1/s", "peak q\ndeg/s/mm", "turn\n1/s"]
     show_table(f"{name}: eigenvalues over {locus.over}", columns, rows)
 
 

@@ -59,9 +59,9 @@ def _compare(found: float | None, required: float, sign: int) -> bool | None:
 
 
 def _steepest(vehicle: Vehicle, sign: float, physics: Physics) -> float | None:
-    """Steepest pitch magnitude [deg] within the limits at the design speed, by bisection from the design pitch."""
+    """Steepest pitch magnitude [deg] within the limits at the design speed; zero if there is none."""
     spec = vehicle.description.specification
-    if spec is None or spec.design_speed_m_s is None or spec.design_pitch_deg is None:
+    if spec is None or spec.design_speed_m_s is None:
         return None
 
     def works(pitch: float) -> bool:
@@ -71,9 +71,13 @@ def _steepest(vehicle: Vehicle, sign: float, physics: Physics) -> float | None:
             return False
         return not row.beyond
 
-    speed, low, high = spec.design_speed_m_s, spec.design_pitch_deg, 89.9
-    if not works(low):
-        return None
+    speed = spec.design_speed_m_s
+    grid = [float(pitch) for pitch in range(1, 90)]
+    reached = [pitch for pitch in grid if works(pitch)]
+    if not reached:
+        return 0.0
+    low = max(reached)
+    high = low + 1.0
     while high - low > 1e-3:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if works(middle) else (low, middle)
@@ -85,4 +89,4 @@ def _greatest_speed(vehicle: Vehicle, physics: Physics) -> float | None:
     if spec is None or spec.design_pitch_deg is None or vehicle.description.actuators.buoyancy is None:
         return None
     (row,) = flight_envelope(vehicle, pitches_deg=[-spec.design_pitch_deg], physics=physics)
-    return row.fastest.V if row.fastest else None
+    return row.fastest.V if row.fastest else 0.0

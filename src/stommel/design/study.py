@@ -93,10 +93,13 @@ class DesignStudy:
     numbers: tuple[tuple[str, object, Provenance], ...]
     """Every number of the vehicle file with its origin."""
     notes: tuple[str, ...]
-    """Known slips of the sources, and parts of this study that could not be answered, with the reason."""
+    """Known slips of the sources, and limits of the model."""
+    unanswered: tuple[tuple[str, str], ...]
+    """Parts of this study that could not be answered, each with the reason."""
 
 
 DEFAULT_SPEED_M_S, DEFAULT_PITCH_DEG = 0.4, 35.0
+_MOST_TURNS = 60
 
 
 def _silent(part: str) -> None:
@@ -123,14 +126,14 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
     spec = vehicle.description.specification
     speed = (spec.design_speed_m_s if spec else None) or DEFAULT_SPEED_M_S
     pitch = (spec.design_pitch_deg if spec else None) or DEFAULT_PITCH_DEG
-    notes = list(vehicle.description.notes)
+    unanswered: list[tuple[str, str]] = []
 
     def ask(part: str, question: Callable[[], _Answer]) -> _Answer | None:
         progress(part)
         try:
             return question()
         except StommelError as error:
-            notes.append(f"{part}: not answered, because {error}")
+            unanswered.append((part, str(error).removeprefix(f"{vehicle.name}: ")))
             return None
 
     progress("design flight")
@@ -170,7 +173,8 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
         loci=loci,
         turns=turns,
         numbers=tuple(stated_numbers(vehicle)),
-        notes=tuple(notes),
+        notes=vehicle.description.notes,
+        unanswered=tuple(unanswered),
     )
 
 
@@ -206,12 +210,25 @@ def _row(vehicle: Vehicle, physics: Physics, speed: float, pitch: float) -> Trim
 
 def _turns(vehicle: Vehicle, physics: Physics, speed: float, pitch: float) -> tuple[SteadyFlight, ...]:
     """Turns from gentle to the tightest that the limits allow."""
-    turns: list[SteadyFlight] = []
-    rate = 0.001
-    while len(turns) < 40:
+
+    def at(rate: float) -> SteadyFlight | None:
         try:
-            turns.append(turn(vehicle, speed_m_s=speed, pitch_deg=-pitch, turn_rate_rad_s=rate, physics=physics))
+            return turn(vehicle, speed_m_s=speed, pitch_deg=-pitch, turn_rate_rad_s=rate, physics=physics)
         except UnreachableFlightError:
-            break
+            return None
+
+    rate = 0.001
+    turns: list[SteadyFlight] = []
+    while len(turns) < _MOST_TURNS and (flight := at(rate)) is not None:
+        turns.append(flight)
         rate *= 1.25
+    low, high = rate / 1.25, rate
+    while turns and len(turns) < _MOST_TURNS and high - low > 1e-3 * high:
+        middle = 0.5 * (low + high)
+        flight = at(middle)
+        if flight is None:
+            high = middle
+        else:
+            low = middle
+            turns.append(flight)
     return tuple(turns)

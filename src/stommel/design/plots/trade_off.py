@@ -52,8 +52,9 @@ def trade_off(locus: RootLocus, plane: Plane, modes: Modes | None = None) -> Tra
 
 def _authority(locus: RootLocus, plane: Plane) -> tuple[Series | None, str, str]:
     if plane == "longitudinal":
-        pitch = np.abs([point.pitch_deg_per_mm for point in locus.authorities])
-        return pitch, "final pitch per mm of moving mass", "deg/mm"
+        # the final pitch hardly moves with stability: weight and moving mass set it; how fast it is reached does
+        pitch = np.abs([point.peak_pitch_rate_deg_s_per_mm for point in locus.authorities])
+        return pitch, "peak pitch rate per mm of moving mass", "(deg/s)/mm"
     for field, actuator in (
         ("turn_rate_deg_s_per_rudder_deg", "rudder"),
         ("turn_rate_deg_s_per_roll_deg", "rolled mass"),

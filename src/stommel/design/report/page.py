@@ -108,11 +108,11 @@ def _context(study: DesignStudy) -> dict[str, Any]:
             (k, locus, locus_heading(locus), " ".join(locus_reading(locus, study.modes)), planes_of(locus))
             for k, locus in enumerate(study.loci)
         ],
-        "loci_missing": [(part, why) for part, why in wording.unanswered_notes(study) if part.startswith("root locus")],
+        "loci_missing": [(part, why) for part, why in study.unanswered if part.startswith("root locus")],
         "turn_limit": nearest_limit(study, study.turns[-1]) if study.turns else "",
         "origins": _origins(study),
-        "notes": wording.source_notes(study),
-        "unanswered": wording.unanswered_notes(study),
+        "notes": study.notes,
+        "unanswered": study.unanswered,
     }
 
 

@@ -7,7 +7,6 @@ from stommel.design.study import DesignStudy
 from stommel.vehicle.messages import unit_of
 
 MINUS = "−"
-_UNANSWERED = ": not answered, because "
 
 _SIGNS = {"m2": "m²", "m3": "m³", "s2": "s²", "degrees": "deg", "deg C": "°C"}
 
@@ -59,19 +58,5 @@ def joined(words: Sequence[str]) -> str:
 
 def why_unanswered(study: DesignStudy, part: str) -> str:
     """Reason that a study gives for a part it could not answer."""
-    for note in study.notes:
-        name, found, reason = note.partition(_UNANSWERED)
-        if found and name == part:
-            return reason.removeprefix(f"{study.vehicle.name}: ")
-    return "nothing that was tried is within the limits of the vehicle file"
-
-
-def source_notes(study: DesignStudy) -> list[str]:
-    """Notes about the sources, without those about unanswered parts."""
-    return [note for note in study.notes if _UNANSWERED not in note]
-
-
-def unanswered_notes(study: DesignStudy) -> list[tuple[str, str]]:
-    """(part, reason) of everything that the study could not answer."""
-    parts = [note.partition(_UNANSWERED) for note in study.notes]
-    return [(part, reason.removeprefix(f"{study.vehicle.name}: ")) for part, found, reason in parts if found]
+    reasons = dict(study.unanswered)
+    return reasons.get(part, "nothing that was tried is within the limits of the vehicle file")

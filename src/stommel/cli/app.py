@@ -5,7 +5,20 @@ from typing import Annotated
 import typer
 
 from stommel import __version__
-from stommel.cli import derivative, design, envelope, modes, root_locus, steady, table, trim, turn, vehicles
+from stommel.cli import (
+    derivative,
+    design,
+    drives,
+    envelope,
+    hull,
+    modes,
+    root_locus,
+    steady,
+    table,
+    trim,
+    turn,
+    vehicles,
+)
 
 app = typer.Typer(
     name="stommel",
@@ -43,5 +56,7 @@ app.command("envelope")(envelope.envelope)
 app.command("modes")(modes.modes)
 app.command("root-locus")(root_locus.root_locus)
 app.command("derivative")(derivative.derivative)
+app.command("hull")(hull.hull)
+app.command("drives")(drives.drives)
 app.command("vehicles")(vehicles.vehicles)
 app.add_typer(vehicles.vehicle_app, name="vehicle")

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.vehicle.schema import Hull, Matrix3, Point, VehicleFile
+from stommel.vehicle.schema.budget import part_problems
 
 
 def skew(a: Point) -> NDArray[np.float64]:
@@ -28,6 +29,7 @@ def problems(vehicle: VehicleFile) -> Iterator[tuple[str, str]]:
     yield from _tensor_problems(vehicle)
     yield from _places(vehicle)
     yield from _bays(vehicle)
+    yield from part_problems(vehicle.parts, vehicle.bays, vehicle.hull)
 
 
 def _tensor_problems(vehicle: VehicleFile) -> Iterator[tuple[str, str]]:

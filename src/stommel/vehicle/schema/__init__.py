@@ -6,9 +6,12 @@ refused.
 """
 
 from stommel.vehicle.schema.actuators import Actuators, BuoyancyEngine, MovingMassDrive, RollDrive, RudderDrive
+from stommel.vehicle.schema.budget import Part
+from stommel.vehicle.schema.drives import Drives
 from stommel.vehicle.schema.energy import Battery, Consumer, EnergyPlan
+from stommel.vehicle.schema.engine import Engine
 from stommel.vehicle.schema.fields import Matrix3, Point
-from stommel.vehicle.schema.hull import Bay, Hull
+from stommel.vehicle.schema.hull import Bay, Hull, Rings
 from stommel.vehicle.schema.hydrodynamics import Hydrodynamics, Rudder, Wing
 from stommel.vehicle.schema.masses import AddedInertia, Ballast, MovingMass, RigidBody
 from stommel.vehicle.schema.specification import ReferenceWater, Specification
@@ -22,15 +25,19 @@ __all__ = [
     "Bay",
     "BuoyancyEngine",
     "Consumer",
+    "Drives",
     "EnergyPlan",
+    "Engine",
     "Hull",
     "Hydrodynamics",
     "Matrix3",
     "MovingMass",
     "MovingMassDrive",
+    "Part",
     "Point",
     "ReferenceWater",
     "RigidBody",
+    "Rings",
     "RollDrive",
     "Rudder",
     "RudderDrive",

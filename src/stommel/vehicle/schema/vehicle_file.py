@@ -6,7 +6,10 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from stommel.vehicle.schema.actuators import Actuators
+from stommel.vehicle.schema.budget import Part
+from stommel.vehicle.schema.drives import Drives
 from stommel.vehicle.schema.energy import Battery, Consumer, EnergyPlan
+from stommel.vehicle.schema.engine import Engine
 from stommel.vehicle.schema.fields import Table
 from stommel.vehicle.schema.hull import Bay, Hull
 from stommel.vehicle.schema.hydrodynamics import Hydrodynamics, Rudder, Wing
@@ -32,11 +35,14 @@ class VehicleFile(Table):
     wing: Wing | None = None
     rudder: Rudder | None = None
     actuators: Actuators = Actuators()
+    engine: Engine | None = None
     hull: Hull | None = None
     bays: tuple[Bay, ...] = ()
     battery: Battery | None = None
     energy: EnergyPlan | None = None
     consumers: tuple[Consumer, ...] = ()
+    drives: Drives | None = None
+    parts: tuple[Part, ...] = ()
 
     @property
     def mass_kg(self) -> float:

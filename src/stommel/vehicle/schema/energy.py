@@ -1,5 +1,6 @@
 """Where the energy comes from and where it goes: battery, consumers, and what the vehicle does between dives."""
 
+from itertools import pairwise
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -35,7 +36,7 @@ class Battery(Table):
                 f"derating_temperature_c has {len(temperatures)} numbers and derating_fraction has {len(fractions)}; "
                 "they must have the same number"
             )
-        if any(b <= a for a, b in zip(temperatures, temperatures[1:], strict=False)):
+        if any(b <= a for a, b in pairwise(temperatures)):
             raise ValueError(f"derating_temperature_c = {list(temperatures)}: must rise from number to number")
         return self
 
@@ -59,6 +60,8 @@ class EnergyPlan(Table):
     """Times that the rudder is put over and back in a dive."""
     rudder_turn_deg: Annotated[float, Field(strict=True, ge=0, le=90)] = 0.0
     """Angle to which it is put over."""
+    rudder_hold_s: NotNegative = 0.0
+    """Time that it is held over."""
     pitch_corrections_per_dive: NotNegative = 0.0
     """Times that the moving mass is moved and moved back to hold the pitch in a dive."""
     pitch_correction_mm: NotNegative = 0.0

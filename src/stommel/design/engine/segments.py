@@ -1,0 +1,216 @@
+"""Integration of a network between events, and what each event switches.
+
+Between events the equations are smooth; `scipy.integrate` advances them with LSODA, which changes between Adams and
+backward differentiation formulas as the stiffness of oil and valves asks for. It also finds the instants of the events.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+from stommel.design.engine.circuit_equations import FIRST_PRESSURE, evaluate, observe
+from stommel.design.engine.network import (
+    BRAKE, CHECK_VALVE, HOLD, LIMITED, LOCKED, PISTON_FRICTION, RAMP, STUCK, TRANSMISSION, Network,
+)  # fmt: skip
+from stommel.errors import StommelError
+
+Array = NDArray[np.float64]
+
+RTOL = 1e-6
+LONGEST_STEP_S = 2.0
+_MOST_SEGMENTS = 4000
+_PRESSURE_SLACK, _FORCE_SLACK = 1.0, 1e-3
+"""Events at the same instant are found one by one; what is beyond these [Pa, N] afterwards has happened too."""
+
+
+class SimulationError(StommelError):
+    """The circuit cannot be simulated: the integrator failed, or the events never end."""
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A stretch without events."""
+
+    t: Array
+    states: Array
+    """A row an instant."""
+    seen: Array
+    """Observations at the same instants."""
+    event: int | None
+    """Event that ended it, None if its time was over."""
+
+
+class Stepper:
+    """Advances one network through segments; holds its time and state."""
+
+    def __init__(self, network: Network, y: Array) -> None:
+        self.network = network
+        self.t = 0.0
+        self.y = y
+        self._dy = np.empty(network.size)
+        self._seen = np.empty(FIRST_PRESSURE + len(network.nodes))
+        self._g = np.empty(network.events)
+        self._at: Array | None = None
+        self._atol = _tolerances(network)
+        self._events = [self._event(j) for j in range(network.events)]
+        self.segments: list[Segment] = []
+
+    def evaluate(self, y: Array) -> None:
+        """Fill rates, observations and event functions."""
+        net = self.network
+        evaluate(
+            y, net.nodes, net.pumps, net.passages, net.pistons, net.drive, net.opened, net.moving,
+            self._dy, self._seen, self._g,
+        )  # fmt: skip
+
+    def advance(self, until: float) -> int | None:
+        """Integrate to the next event, or to the time `until`; return the event.
+
+        Raises
+        ------
+        SimulationError
+            The integrator failed, or there are far too many events.
+        """
+        if len(self.segments) >= _MOST_SEGMENTS:
+            raise SimulationError(f"engine: more than {_MOST_SEGMENTS} events up to {self.t:.3f} s; the circuit chatters")
+        self._at = None
+        found = solve_ivp(
+            self._rates, (self.t, until), self.y, method="LSODA", events=self._events, rtol=RTOL, atol=self._atol,
+            max_step=LONGEST_STEP_S,
+        )  # fmt: skip
+        if found.status < 0:
+            raise SimulationError(f"engine: the integrator failed at {found.t[-1]:.6g} s: {found.message}")
+        event = next((j for j, times in enumerate(found.t_events) if len(times)), None)
+        states = np.ascontiguousarray(found.y.T)
+        self.segments.append(Segment(found.t, states, self.observations(states), event))
+        self.t, self.y = float(found.t[-1]), states[-1].copy()
+        return event
+
+    def observations(self, states: Array) -> Array:
+        """Observations at given states with the present switches."""
+        net = self.network
+        return np.asarray(
+            observe(
+                states, net.nodes, net.pumps, net.passages, net.pistons, net.drive, net.opened, net.moving, net.events
+            )
+        )
+
+    def overdue(self) -> int | None:
+        """Valve or piston whose condition has passed already, because it did so together with another event."""
+        self.evaluate(self.y)
+        passages, pistons = len(self.network.passages), len(self.network.pistons)
+        for j in range(3, 3 + passages):
+            if self._g[j] < -_PRESSURE_SLACK:
+                return j
+        for i in range(pistons):
+            j = 3 + passages + 2 * i
+            if self.network.moving[i] == STUCK and self._g[j] < -_FORCE_SLACK:
+                return j
+        return None
+
+    def _rates(self, _t: float, y: Array) -> Array:
+        self.evaluate(y)
+        return self._dy.copy()
+
+    def _event(self, j: int) -> Callable[[float, Array], float]:
+        def value(_t: float, y: Array) -> float:
+            if self._at is not y:
+                self.evaluate(y)
+                self._at = y
+            return float(self._g[j])
+
+        value.terminal = True  # type: ignore[attr-defined]  # how solve_ivp is told
+        value.direction = -1.0  # type: ignore[attr-defined]
+        return value
+
+
+def _tolerances(network: Network) -> Array:
+    """Absolute tolerance of each state: about 10 Pa, a nanometre, 0.1 mJ."""
+    atol = np.full(network.size, 1e-4)
+    atol[1 : network.first_position] = 10.0 * network.nodes["volume"] / network.nodes["K"]
+    atol[1 + network.bladder] = 1e-12
+    atol[network.first_position : network.first_velocity] = 1e-9
+    atol[network.first_velocity : network.first_entry] = 1e-7
+    return atol
+
+
+def switch(network: Network, y: Array, event: int) -> str:
+    """Do what an event does to the switches and, at a stop, to the state; return its name.
+
+    Names are `target`, `speed reached`, `at rest`, `limited`, `stalled`, and those of valves, pistons and accumulators
+    with what they do.
+    """
+    passages, pistons = len(network.passages), len(network.pistons)
+    if event < 3:
+        return _switch_motor(network, y, event)
+    event -= 3
+    if event < passages:
+        assert network.passages[event]["kind"] == CHECK_VALVE
+        network.opened[event] = 1 - network.opened[event]
+        return f"{network.passage_names[event]} {'opens' if network.opened[event] else 'closes'}"
+    event -= passages
+    if event < 2 * pistons:
+        return _switch_piston(network, y, event // 2, at_stop=bool(event % 2))
+    event -= 2 * pistons
+    filled = passages + event
+    network.opened[filled] = 1 - network.opened[filled]
+    return f"accumulator {'fills' if network.opened[filled] else 'is empty'}"
+
+
+def _switch_motor(network: Network, y: Array, event: int) -> str:
+    drive = network.drive[0]
+    if event == 0:
+        drive["towards"] = 0
+        if drive["mode"] == LOCKED:
+            network.opened[: len(network.passages)][network.passages["kind"] != CHECK_VALVE] = 0
+        else:
+            drive["mode"] = BRAKE
+        return "target"
+    if event == 1:
+        resting = drive["mode"] == BRAKE
+        y[0] = 0.0 if resting else drive["s"] * drive["omega"]
+        drive["mode"] = LOCKED if resting else HOLD
+        return "at rest" if resting else "speed reached"
+    if drive["mode"] in (RAMP, HOLD):
+        drive["mode"] = LIMITED
+        return "limited"
+    stop_motor(network, y)
+    return "stalled"
+
+
+def stop_motor(network: Network, y: Array) -> None:
+    """Lock the motor where it is; what energy the rotor had is lost in the train."""
+    drive = network.drive[0]
+    y[network.first_entry + TRANSMISSION] += 0.5 * drive["J"] * y[0] ** 2
+    y[0] = 0.0
+    drive["mode"], drive["towards"] = LOCKED, 0
+
+
+def _switch_piston(network: Network, y: Array, i: int, *, at_stop: bool) -> str:
+    piston, name = network.pistons[i], network.piston_names[i]
+    x, v = network.first_position + i, network.first_velocity + i
+    if at_stop:
+        y[x] = 0.0 if y[x] < 0.5 * piston["stroke"] else piston["stroke"]
+        if piston["driven"]:
+            stop_motor(network, y)
+    if at_stop or network.moving[i] != STUCK:
+        y[network.first_entry + PISTON_FRICTION] += 0.5 * piston["mass"] * y[v] ** 2
+        y[v] = 0.0
+        network.moving[i] = STUCK
+        return f"{name} at its end stop" if at_stop else f"{name} stops"
+    network.moving[i] = 1 if _push(network, y, i) > 0.0 else -1
+    return f"{name} moves"
+
+
+def _push(network: Network, y: Array, i: int) -> float:
+    """Force on a piston from oil and gas, outwards [N]."""
+    states = y[np.newaxis, :].copy()
+    seen = observe(
+        states, network.nodes, network.pumps, network.passages, network.pistons, network.drive, network.opened,
+        network.moving, network.events,
+    )  # fmt: skip
+    piston = network.pistons[i]
+    return float(piston["S"] * (seen[0, FIRST_PRESSURE + piston["node"]] - piston["gas"]))

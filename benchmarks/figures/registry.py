@@ -1,4 +1,4 @@
-"""The table of figures: a function that measures, its unit and its bar. Smaller is better for all of them."""
+"""The table of figures: a function that measures, its unit and its bar. Smaller is better unless it is `at_least`."""
 
 import importlib
 import pkgutil
@@ -30,12 +30,13 @@ class Entry(TypedDict):
 
 @dataclass(frozen=True)
 class Figure:
-    """A named quantity that must not exceed its bar."""
+    """A named quantity that must not exceed its bar, or must reach it if `at_least`."""
 
     name: str
     unit: str
     bar: float
     measure: Callable[[], Measurement]
+    at_least: bool = False
 
 
 class UnknownFigureError(Exception):
@@ -45,12 +46,14 @@ class UnknownFigureError(Exception):
 _FIGURES: dict[str, Figure] = {}
 
 
-def figure(unit: str, bar: float) -> Callable[[Callable[[], Measurement]], Callable[[], Measurement]]:
+def figure(
+    unit: str, bar: float, *, at_least: bool = False
+) -> Callable[[Callable[[], Measurement]], Callable[[], Measurement]]:
     """Register the decorated function as the figure of its name."""
 
     def register(measure: Callable[[], Measurement]) -> Callable[[], Measurement]:
         name = measure.__name__
-        _FIGURES[name] = Figure(name, unit, bar, measure)
+        _FIGURES[name] = Figure(name, unit, bar, measure, at_least)
         return measure
 
     return register
@@ -78,7 +81,9 @@ def measured(figure: Figure) -> Entry:
         found = figure.measure()
     except Exception as error:  # noqa: BLE001  # the remaining figures still run
         found = Measurement(None, {"error": f"{type(error).__name__}: {error}", "traceback": traceback.format_exc()})
-    ok = None if found.value is None else found.value <= figure.bar
+    ok = None
+    if found.value is not None:
+        ok = found.value >= figure.bar if figure.at_least else found.value <= figure.bar
     return {"value": found.value, "unit": figure.unit, "bar": figure.bar, "ok": ok, "detail": found.detail}
 
 

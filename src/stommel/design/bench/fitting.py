@@ -78,6 +78,21 @@ class EngineFit:
     """The same of the average current."""
     warnings: tuple[str, ...]
 
+    def as_json(self) -> dict[str, object]:
+        """Words for JSON."""
+        return {
+            "runs": len(self.flow_residuals),
+            "parameters": [one.as_row() for one in self.parameters],
+            "confidence": CONFIDENCE,
+            "interval_meaning": "all true values lie in their interval_95 at once with this probability (Bonferroni); "
+            "interval_95_alone is for one constant alone",
+            "correlation": self.correlation.tolist(),
+            "flow_scatter": self.flow_scatter,
+            "current_scatter": self.current_scatter,
+            "degrees_of_freedom": self.degrees_of_freedom,
+            "warnings": list(self.warnings),
+        }
+
 
 def fit_engine(
     runs: Sequence[RunPerformance],

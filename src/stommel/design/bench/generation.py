@@ -3,8 +3,7 @@
 The paper shows its bench results (Figs. 14 and 15) as curves without numbers: there is no measured log to test with.
 """
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from math import isfinite, pi
 from pathlib import Path
 
@@ -87,25 +86,31 @@ def generate_log(
     Raises
     ------
     BenchRequestError
-        The engine cannot run at a point of the plan, or the seed is negative.
+        The engine pumps nothing at a point of the plan, or the seed is negative.
     """
     plan, noise = plan or BenchPlan(), noise or SensorNoise()
     if seed < 0:
         raise BenchRequestError(f"seed = {seed}: must be 0 or more")
-    points = model_points(engine, plan.pressures, plan.motor_speeds)
-    _refuse_unattainable(points)
+    points = [_as_supplied(engine, P, omega) for P in plan.pressures for omega in plan.motor_speeds]
     random = np.random.default_rng(seed)
     runs = tuple(_run(f"{k:02d}", point, plan, noise, random) for k, point in enumerate(points, start=1))
     true = {name: value for name, value in asdict(engine).items() if isfinite(value)}
     return EngineLog(MARKER, runs, float(np.sqrt(4 / pi * engine.piston_area_m2)), true)
 
 
-def _refuse_unattainable(points: Sequence[OperatingPoint]) -> None:
-    wrong = [point for point in points if not point.attainable]
-    if wrong:
-        named = ", ".join(f"{p.motor_speed * 60 / (2 * pi):.0f} r/min at {p.pressure / 1e6:g} MPa" for p in wrong[:4])
-        more = f" and {len(wrong) - 4} more" if len(wrong) > 4 else ""
-        raise BenchRequestError(f"the engine cannot run at {named}{more}: supply voltage, current limit or leakage")
+def _as_supplied(engine: EngineParameters, P: float, omega: float) -> OperatingPoint:
+    """The point that the motor reaches: slower than set where the supply does not allow the speed under this load."""
+    (point,) = model_points(engine, [P], [omega])
+    if point.attainable:
+        return point
+    slower = omega * np.linspace(0.0, 1.0, 1001)[1:]
+    reached = [one for one in model_points(engine, [P], slower) if one.attainable]
+    if not reached:
+        raise BenchRequestError(
+            f"the engine pumps nothing against {P / 1e6:g} MPa at {omega * 60 / (2 * pi):.0f} r/min or slower: supply "
+            "voltage, current limit or leakage"
+        )
+    return reached[-1]
 
 
 def _run(
@@ -186,8 +191,3 @@ def write_log(log: EngineLog, path: Path, seed: int, vehicle: str) -> list[Path]
     write_whole(path, log_text(log, seed, vehicle))
     write_whole(beside, map_text(log, seed, vehicle))
     return [path, beside]
-
-
-def with_parameters(engine: EngineParameters, values: dict[str, float]) -> EngineParameters:
-    """The same engine with some constants changed."""
-    return replace(engine, **values)

@@ -7,6 +7,9 @@ from math import isfinite, pi
 from stommel.design.bench.failures import BenchRequestError
 from stommel.design.bench.performance import OperatingPoint, levels, nearest
 
+MARGIN = 0.05
+"""Of speeds whose consumption differs by no more than this share, the slowest is chosen."""
+
 
 @dataclass(frozen=True)
 class TimeLimit:
@@ -18,6 +21,25 @@ class TimeLimit:
     """Oil to inflate [m3]."""
     pressure: float
     """Pressure at which the limit holds [Pa]."""
+
+
+def time_limit_of(*, longest_s: float, volume_ml: float, pressure_mpa: float) -> TimeLimit:
+    """Return a limit from words and units.
+
+    Raises
+    ------
+    BenchRequestError
+        Time or volume is not greater than zero, or the pressure less than zero.
+    """
+    for name, value, possible in (
+        ("time limit", longest_s, longest_s > 0.0),
+        ("volume", volume_ml, volume_ml > 0.0),
+        ("pressure of the limit", pressure_mpa, pressure_mpa >= 0.0),
+    ):
+        if not (possible and isfinite(value)):
+            allowed = "at least 0" if name.startswith("pressure") else "greater than 0"
+            raise BenchRequestError(f"{name} = {value:g}: must be {allowed}")
+    return TimeLimit(longest_s, volume_ml / 1e6, pressure_mpa * 1e6)
 
 
 @dataclass(frozen=True)
@@ -53,6 +75,8 @@ class SpeedChoice:
     pressures: tuple[float, ...]
     """Pressures that the consumption is averaged over [Pa]."""
     limit: TimeLimit
+    margin: float
+    """Consumptions within this share count as equal."""
 
     def reason(self) -> str:
         """Say in one sentence why this speed."""
@@ -65,15 +89,23 @@ class SpeedChoice:
                 f"{fastest.inflating_time:.1f} s"
             )
         frugal = min(self.candidates, key=lambda one: one.K)
-        words = f"{_rpm(self.chosen)} r/min takes least of the speeds that inflate {volume} at {at} within {longest}"
+        words = (
+            f"{_rpm(self.chosen)} r/min takes least, within {self.margin:.0%}, of the speeds that inflate {volume} "
+            f"at {at} within {longest}"
+        )
         if frugal is not self.chosen:
             share = 1 - frugal.K / self.chosen.K
-            words += f"; {_rpm(frugal)} r/min would take {share:.0%} less, but {frugal.refused_because}"
+            but = (
+                frugal.refused_because or "that is within the margin, and the slower motor is kinder to pump and supply"
+            )
+            words += f"; {_rpm(frugal)} r/min would take {share:.1%} less, but {but}"
         return words
 
 
-def choose_speed(points: Sequence[OperatingPoint], limit: TimeLimit, piston_area: float) -> SpeedChoice:
-    """Choose the speed of least consumption K that inflates in time.
+def choose_speed(
+    points: Sequence[OperatingPoint], limit: TimeLimit, piston_area: float, margin: float = MARGIN
+) -> SpeedChoice:
+    """Choose the speed of least consumption K that inflates in time; of nearly equal ones, the slowest.
 
     Parameters
     ----------
@@ -83,12 +115,16 @@ def choose_speed(points: Sequence[OperatingPoint], limit: TimeLimit, piston_area
         Longest time, for which volume, at which pressure.
     piston_area
         S [m2].
+    margin
+        Share of consumption that counts as equal.
 
     Raises
     ------
     BenchRequestError
-        The speeds share no pressure, or none near that of the limit.
+        The margin is negative, the speeds share no pressure, or none near that of the limit.
     """
+    if not 0.0 <= margin < 1.0:
+        raise BenchRequestError(f"margin = {margin * 100:g} %: must be at least 0 and less than 100 %")
     pressures = levels([point.pressure for point in points])
     speeds = levels([point.motor_speed for point in points])
     table: dict[tuple[int, int], list[OperatingPoint]] = {}
@@ -108,8 +144,9 @@ def choose_speed(points: Sequence[OperatingPoint], limit: TimeLimit, piston_area
         for i in range(len(speeds))
     )
     able = [one for one in candidates if not one.refused_because]
-    chosen = min(able, key=lambda one: one.K) if able else None
-    return SpeedChoice(chosen, candidates, tuple(pressures[j] for j in shared), limit)
+    least = min((one.K for one in able), default=0.0)
+    chosen = next((one for one in able if one.K - least <= margin * least), None)
+    return SpeedChoice(chosen, candidates, tuple(pressures[j] for j in shared), limit, margin)
 
 
 def _candidate(

@@ -1,11 +1,25 @@
 """Pressure hull and bays."""
 
 from math import pi
-from typing import Self
+from typing import Annotated, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from stommel.vehicle.schema.fields import Finite, NotNegative, Positive, Table
+
+Fraction = Annotated[float, Field(strict=True, gt=0, le=1)]
+AtLeastOne = Annotated[float, Field(strict=True, ge=1, allow_inf_nan=False)]
+
+
+class Rings(Table):
+    """Ring stiffeners inside the tube, of rectangular section."""
+
+    spacing_mm: Positive
+    """Distance between neighbouring rings, or between a ring and the end of the bay."""
+    height_mm: Positive
+    """How far a ring stands inward from the wall."""
+    width_mm: Positive
+    """Width of a ring along the tube."""
 
 
 class Hull(Table):
@@ -23,6 +37,23 @@ class Hull(Table):
     material: str | None = None
     wall_mm: Positive | None = None
     depth_rating_m: Positive | None = None
+    design_pressure_mpa: Positive | None = None
+    """Pressure that the depth rating stands for; the water's weight over that depth if left out. P_max of the paper."""
+    checked_length_m: Positive | None = None
+    """Longest length of tube between reinforced joints: L of the paper. The longest dry bay if left out."""
+    weld_efficiency: Fraction = 1.0
+    """Share of the wall's strength that a longitudinal weld keeps; 1 for a seamless tube."""
+    wall_allowance_mm: NotNegative = 0.0
+    """Wall that corrosion and tolerances may take: C of the paper."""
+    yield_safety_factor: AtLeastOne = 2.0
+    """Yield stress over permissible stress."""
+    tensile_safety_factor: AtLeastOne = 3.0
+    """Tensile stress over permissible stress."""
+    circumferential_safety_factor: AtLeastOne = 2.0
+    """Critical over working pressure for buckling round the circumference: m_c of the paper."""
+    axial_safety_factor: AtLeastOne = 3.0
+    """Critical over permissible stress for buckling along the axis: m_a of the paper."""
+    rings: Rings | None = None
     compressibility_per_pa: NotNegative = 0.0
     thermal_expansion_per_k: Finite = 0.0
 
@@ -31,6 +62,19 @@ class Hull(Table):
         if self.inner_diameter_mm is not None and self.inner_diameter_mm >= self.outer_diameter_mm:
             raise ValueError(
                 f"inner_diameter_mm = {self.inner_diameter_mm:g}: must be less than outer_diameter_mm = "
+                f"{self.outer_diameter_mm:g}"
+            )
+        if self.wall_mm is not None and self.wall_mm >= 0.5 * self.outer_diameter_mm:
+            raise ValueError(
+                f"wall_mm = {self.wall_mm:g}: must be less than half of outer_diameter_mm = {self.outer_diameter_mm:g}"
+            )
+        if self.checked_length_m is not None and self.checked_length_m > self.length_m:
+            raise ValueError(
+                f"checked_length_m = {self.checked_length_m:g}: must be at most length_m = {self.length_m:g}"
+            )
+        if self.rings is not None and self.rings.height_mm >= 0.5 * self.outer_diameter_mm:
+            raise ValueError(
+                f"rings.height_mm = {self.rings.height_mm:g}: must be less than half of outer_diameter_mm = "
                 f"{self.outer_diameter_mm:g}"
             )
         return self

@@ -1,0 +1,131 @@
+"""`stommel hull` through the front door."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Command
+from tests.cli.test_bad_input import refused
+
+KEYS = {
+    "name",
+    "yield_wall_mm",
+    "circumferential_wall_mm",
+    "axial_critical_stress_mpa",
+    "mass_kg",
+    "collapse_depth_m",
+    "wall_mm",
+    "required_wall_mm",
+    "displaced_volume_l",
+    "compressibility_per_pa",
+    "criteria",
+    "rank",
+    "reasons",
+}
+GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "hull.md"
+
+
+def test_json(stommel: Command) -> None:
+    found = stommel("hull", "zju", "--json").json
+    assert len(found["materials"]) == 8
+    assert all(set(row) >= KEYS for row in found["materials"])
+    titanium = next(row for row in found["materials"] if row["name"] == "TC4")
+    assert titanium["wall_mm"] == 4.2
+    assert titanium["collapse_depth_m"] == pytest.approx(405.5, abs=0.1)
+    assert found["own"]["name"] == "TC4"
+    assert found["pressure_mpa"] == 2.0
+
+
+def test_rated_depth_asked_for_is_the_design_pressure(stommel: Command) -> None:
+    assert stommel("hull", "zju", "--depth", 200, "--json").json == stommel("hull", "zju", "--json").json
+
+
+def test_deeper_needs_more(stommel: Command) -> None:
+    options = ("--material", "TC4", "--material", "6061-T6", "--json")
+    shallow = stommel("hull", "zju", *options).json
+    deep = stommel("hull", "zju", "--depth", 400, *options).json
+    assert {row["name"] for row in deep["materials"]} == {"TC4", "6061-T6"}
+    assert deep["pressure_mpa"] == 4.0
+    walls = [{row["name"]: row["circumferential_wall_mm"] for row in found["materials"]} for found in (shallow, deep)]
+    for name in walls[0]:
+        assert walls[1][name] == pytest.approx(walls[0][name] * 2**0.4, rel=1e-12)
+
+
+def test_thin_wall_is_named_in_terminal_and_json(stommel: Command) -> None:
+    shown = stommel("hull", "zju", "--material", "TC4", "--wall", 3.5)
+    assert shown.status == 0
+    assert "WARNING wall too thin" in shown.out
+    found = stommel("hull", "zju", "--material", "TC4", "--wall", 3.5, "--json").json
+    assert "wall too thin" in {warning["name"] for warning in found["warnings"]}
+    assert "wall too thin" in {warning["name"] for warning in found["materials"][0]["warnings"]}
+
+
+def test_readable_at_80_columns(stommel: Command) -> None:
+    shown = stommel("hull", "zju")
+    assert shown.status == 0
+    assert max(len(line) for line in shown.out.splitlines()) <= 80
+    assert "1.08e+05 MPa" in " ".join(shown.out.split())
+
+
+def test_plot_and_own_materials(stommel: Command, tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text(
+        "[PMMA]\ntitle = 'acrylic'\nelastic_modulus_mpa = 3000\npoisson_ratio = 0.37\ndensity_kg_m3 = 1190\n"
+        "failure_stress_mpa = 100\npermissible_stress_mpa = 20\nthermal_expansion_per_k = 7e-5\ncorrosion_grade = 4\n"
+        "corrosion = 'none'\nmachinability_grade = 3\nmachinability = 'easy'\n"
+    )
+    options = ("--materials", "mine.toml", "--material", "pmma", "--depth", 50, "--plot", "hull.png", "--json")
+    found = stommel("hull", "zju", *options).json
+    assert [row["name"] for row in found["materials"]] == ["PMMA"]
+    assert found["plots"] == ["hull.png", "hull.svg"]
+    assert (tmp_path / "hull.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("zju", "--depth", -200), ["depth = -200 m", "greater than 0"]),
+        (("zju", "--pressure-mpa", -2), ["pressure = -2 MPa", "greater than 0"]),
+        (("zju", "--depth", "nan"), ["depth = nan"]),
+        (("zju", "--depth", 200, "--pressure-mpa", 2), ["not both"]),
+        (("zju", "--material", "unobtainium"), ["'unobtainium'", "known materials: 12Cr1MoV"]),
+        (("zju", "--wall", 0), ["wall = 0 mm", "110 mm"]),
+        (("zju", "--wall", 110), ["wall = 110 mm", "less than half"]),
+        (("zju", "--material", "LY12", "--depth", 20000), ["LY12", "no wall"]),
+        (("zju", "--materials", "nowhere.toml"), ["nowhere.toml", "cannot be read"]),
+        (("rogue",), ["no table [hull]"]),
+        (("seawing",), ["give a depth"]),
+    ],
+)
+def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[str]) -> None:
+    refused(stommel("hull", *arguments), *words)
+
+
+@pytest.mark.parametrize(
+    ("was", "becomes", "words"),
+    [
+        ("inner_diameter_mm = { value = 210", "inner_diameter_mm = { value = 230", ["230", "less than outer_diameter"]),
+        ("design_pressure_mpa = { value = 2,", "design_pressure_mpa = { value = -2,", ["design_pressure_mpa = -2"]),
+        ("weld_efficiency = { value = 1,", "weld_efficiency = { value = 1.2,", ["weld_efficiency", "at most 1"]),
+        ("checked_length_m = { value = 0.75", "checked_length_m = { value = 7.5", ["checked_length_m = 7.5"]),
+        ("wall_mm = { value = 4.2", "wall_mm = { value = 111", ["wall_mm = 111", "less than half"]),
+        ("yield_safety_factor = { value = 2", "yield_safety_factor = { value = 0.5", ["yield_safety_factor = 0.5"]),
+    ],
+)
+def test_refused_vehicle_files(stommel: Command, tmp_path: Path, was: str, becomes: str, words: list[str]) -> None:
+    from stommel.vehicle.loading import builtin_text
+
+    text = builtin_text("zju")
+    assert was in text
+    (tmp_path / "bad.toml").write_text(text.replace(was, becomes))
+    refused(stommel("hull", "bad.toml"), "bad.toml", *words)
+
+
+def test_commands_of_the_guide_run(stommel: Command) -> None:
+    blocks = re.findall(r"```console\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S)
+    commands = [line.removeprefix("$ ") for block in blocks for line in block.splitlines() if line.startswith("$ ")]
+    assert len(commands) >= 3
+    for command in commands:
+        program, *arguments = command.split()
+        assert program == "stommel"
+        assert stommel(*arguments).status == 0, command

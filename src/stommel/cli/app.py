@@ -6,9 +6,13 @@ import typer
 
 from stommel import __version__
 from stommel.cli import (
+    bench,
+    budget,
     derivative,
     design,
     drives,
+    endurance,
+    engine,
     envelope,
     hull,
     modes,
@@ -58,5 +62,9 @@ app.command("root-locus")(root_locus.root_locus)
 app.command("derivative")(derivative.derivative)
 app.command("hull")(hull.hull)
 app.command("drives")(drives.drives)
+app.command("engine")(engine.engine)
+app.command("endurance")(endurance.endurance)
+app.command("budget")(budget.budget)
 app.command("vehicles")(vehicles.vehicles)
 app.add_typer(vehicles.vehicle_app, name="vehicle")
+app.add_typer(bench.bench_app, name="bench")

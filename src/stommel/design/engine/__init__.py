@@ -1,1 +1,62 @@
-"""Buoyancy engine: its parts and circuit, simulation, steady pumping, energy of an inflation (docs/theory/engine)."""
+"""Buoyancy engine: its parts and circuit, simulation, steady pumping, energy of an inflation (docs/theory/engine).
+
+Names are imported when they are first used: steady pumping alone needs neither compiler nor integrator.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+_WHERE = {
+    "EngineParameters": "steady_state",
+    "EngineRequestError": "simulation",
+    "EngineRun": "results",
+    "InflationCosts": "reduction",
+    "NamedEngine": "files",
+    "Outcome": "results",
+    "PhaseResult": "results",
+    "SteadyState": "steady_state",
+    "engine_figure": "engine_plot",
+    "engine_of": "files",
+    "engine_parameters": "reduction",
+    "example_names": "files",
+    "inflation_energy": "reduction",
+    "load_engine": "files",
+    "simulate": "simulation",
+    "stall_pressure": "stall",
+    "steady_state": "steady_state",
+}
+
+__all__ = [
+    "EngineParameters",
+    "EngineRequestError",
+    "EngineRun",
+    "InflationCosts",
+    "NamedEngine",
+    "Outcome",
+    "PhaseResult",
+    "SteadyState",
+    "engine_figure",
+    "engine_of",
+    "engine_parameters",
+    "example_names",
+    "inflation_energy",
+    "load_engine",
+    "simulate",
+    "stall_pressure",
+    "steady_state",
+]
+
+if TYPE_CHECKING:
+    from stommel.design.engine.engine_plot import engine_figure
+    from stommel.design.engine.files import NamedEngine, engine_of, example_names, load_engine
+    from stommel.design.engine.reduction import InflationCosts, engine_parameters, inflation_energy
+    from stommel.design.engine.results import EngineRun, Outcome, PhaseResult
+    from stommel.design.engine.simulation import EngineRequestError, simulate
+    from stommel.design.engine.stall import stall_pressure
+    from stommel.design.engine.steady_state import EngineParameters, SteadyState, steady_state
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _WHERE:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_WHERE[name]}"), name)

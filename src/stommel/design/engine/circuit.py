@@ -7,8 +7,20 @@ from math import pi
 import numpy as np
 
 from stommel.design.engine.network import (
-    ACCUMULATOR, BLADDER, CHECK_VALVE, DRIVE, LINE, LOCKED, NODE, OIL, PASSAGE, PISTON, PUMP, SOLENOID_VALVE,
-    Network, Records,
+    ACCUMULATOR,
+    BLADDER,
+    CHECK_VALVE,
+    DRIVE,
+    LINE,
+    LOCKED,
+    NODE,
+    OIL,
+    PASSAGE,
+    PISTON,
+    PUMP,
+    SOLENOID_VALVE,
+    Network,
+    Records,
 )  # fmt: skip
 from stommel.errors import StommelError
 from stommel.vehicle.schema import Engine
@@ -76,7 +88,9 @@ def trains(engine: Engine) -> dict[str, Train]:
     CircuitError
         A shaft or rod that no motor drives, or a train that closes on itself.
     """
-    passes = {f"{gear.name}.input": (f"{gear.name}.output", 1.0 / gear.ratio, gear.efficiency) for gear in engine.gearboxes}
+    passes = {
+        f"{gear.name}.input": (f"{gear.name}.output", 1.0 / gear.ratio, gear.efficiency) for gear in engine.gearboxes
+    }
     passes |= {
         f"{screw.name}.shaft": (f"{screw.name}.rod", screw.lead_mm / 1e3 / (2.0 * pi), screw.efficiency)
         for screw in engine.screws
@@ -88,7 +102,9 @@ def trains(engine: Engine) -> dict[str, Train]:
         start, drive = waiting.popleft()
         for port in joined[start]:
             if port in found:
-                raise CircuitError(f"engine: the train closes on itself at {port!r}; gears and screws must branch outwards")
+                raise CircuitError(
+                    f"engine: the train closes on itself at {port!r}; gears and screws must branch outwards"
+                )
             found[port] = drive
             if port in passes:
                 other, ratio, efficiency = passes[port]
@@ -106,7 +122,7 @@ def _oil_nodes(engine: Engine) -> tuple[dict[str, int], list[str]]:
     """Index of the node of each oil port, and the nodes' names."""
     ports = {f"{part.name}.{port}" for part in engine.parts() for port, domain in part.PORTS.items() if domain == "oil"}
     node_of: dict[str, int] = {}
-    names = []
+    names: list[str] = []
     for joined in engine.connections:
         if joined[0] in ports:
             node_of |= dict.fromkeys(joined, len(names))
@@ -155,11 +171,21 @@ def _passages(engine: Engine, node_of: dict[str, int]) -> Records:
         for p in engine.lines
     ]
     rows += [
-        row(p.name, ("inlet", "outlet"), CHECK_VALVE, p.resistance_mpa_s_ml * 1e12, 0.0, p.cracking_pressure_mpa * MEGA, 0.0)
+        row(
+            p.name,
+            ("inlet", "outlet"),
+            CHECK_VALVE,
+            p.resistance_mpa_s_ml * 1e12,
+            0.0,
+            p.cracking_pressure_mpa * MEGA,
+            0.0,
+        )
         for p in engine.check_valves
     ]
     rows += [
-        row(p.name, ("a", "b"), SOLENOID_VALVE, p.resistance_mpa_s_ml * 1e12, p.loss_mpa_s2_ml2 * square, 0.0, p.power_w)
+        row(
+            p.name, ("a", "b"), SOLENOID_VALVE, p.resistance_mpa_s_ml * 1e12, p.loss_mpa_s2_ml2 * square, 0.0, p.power_w
+        )
         for p in engine.solenoid_valves
     ]
     return np.array(rows, PASSAGE)
@@ -179,4 +205,3 @@ def _pistons(engine: Engine, node_of: dict[str, int], driven: dict[str, Train]) 
             )
         )  # fmt: skip
     return np.array(rows, PISTON)
-

@@ -36,7 +36,7 @@ class PhaseResult:
     begin_s: float
     duration_s: float
     moved_m3: float
-    """Oil into the bladder [m3]; negative when deflating."""
+    """Oil into the bladder, as its volume without pressure [m3]; negative when deflating."""
     piston_m: tuple[float, float]
     """Position of the measured piston, before and after [m]."""
     energy_j: float
@@ -54,7 +54,7 @@ class PhaseResult:
     peak_supply_current_a: float
     """Greatest current from the supply [A]."""
     volumetric_efficiency: float | None
-    """Oil moved over what motor revolutions would move without leakage; None if the motor did not turn."""
+    """Volume of the piston's travel over what the motor would move without leakage; None if it did not turn."""
 
     @property
     def efficiency(self) -> float:

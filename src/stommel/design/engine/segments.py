@@ -1,19 +1,29 @@
 """Integration of a network between events, and what each event switches.
 
 Between events the equations are smooth; `scipy.integrate` advances them with LSODA, which changes between Adams and
-backward differentiation formulas as the stiffness of oil and valves asks for. It also finds the instants of the events.
+backward differentiation formulas as the stiffness of oil and valves asks for. After each step all event functions are
+looked at together, and the first fall through zero is located on the integrator's own interpolant.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
+from scipy.integrate import LSODA
+from scipy.optimize import brentq
 
-from stommel.design.engine.circuit_equations import FIRST_PRESSURE, evaluate, observe
+from stommel.design.engine.circuit_equations import FIRST_PRESSURE, evaluate, observe, piston_push
 from stommel.design.engine.network import (
-    BRAKE, CHECK_VALVE, HOLD, LIMITED, LOCKED, PISTON_FRICTION, RAMP, STUCK, TRANSMISSION, Network,
+    BRAKE,
+    CHECK_VALVE,
+    HOLD,
+    LIMITED,
+    LOCKED,
+    PISTON_FRICTION,
+    RAMP,
+    STUCK,
+    TRANSMISSION,
+    Network,
 )  # fmt: skip
 from stommel.errors import StommelError
 
@@ -22,8 +32,6 @@ Array = NDArray[np.float64]
 RTOL = 1e-6
 LONGEST_STEP_S = 2.0
 _MOST_SEGMENTS = 4000
-_PRESSURE_SLACK, _FORCE_SLACK = 1.0, 1e-3
-"""Events at the same instant are found one by one; what is beyond these [Pa, N] afterwards has happened too."""
 
 
 class SimulationError(StommelError):
@@ -53,9 +61,7 @@ class Stepper:
         self._dy = np.empty(network.size)
         self._seen = np.empty(FIRST_PRESSURE + len(network.nodes))
         self._g = np.empty(network.events)
-        self._at: Array | None = None
         self._atol = _tolerances(network)
-        self._events = [self._event(j) for j in range(network.events)]
         self.segments: list[Segment] = []
 
     def evaluate(self, y: Array) -> None:
@@ -75,19 +81,50 @@ class Stepper:
             The integrator failed, or there are far too many events.
         """
         if len(self.segments) >= _MOST_SEGMENTS:
-            raise SimulationError(f"engine: more than {_MOST_SEGMENTS} events up to {self.t:.3f} s; the circuit chatters")
-        self._at = None
-        found = solve_ivp(
-            self._rates, (self.t, until), self.y, method="LSODA", events=self._events, rtol=RTOL, atol=self._atol,
-            max_step=LONGEST_STEP_S,
+            raise SimulationError(
+                f"engine: more than {_MOST_SEGMENTS} events up to {self.t:.3f} s; the circuit chatters"
+            )
+        solver = LSODA(
+            self._rates, self.t, self.y, until, rtol=RTOL, atol=self._atol, max_step=LONGEST_STEP_S
         )  # fmt: skip
-        if found.status < 0:
-            raise SimulationError(f"engine: the integrator failed at {found.t[-1]:.6g} s: {found.message}")
-        event = next((j for j, times in enumerate(found.t_events) if len(times)), None)
-        states = np.ascontiguousarray(found.y.T)
-        self.segments.append(Segment(found.t, states, self.observations(states), event))
-        self.t, self.y = float(found.t[-1]), states[-1].copy()
+        times, states, event = [self.t], [self.y], None
+        before = self._event_values(self.y)
+        while solver.status == "running" and event is None:
+            failure = solver.step()
+            if failure is not None:
+                raise SimulationError(f"engine: the integrator failed at {solver.t:.6g} s: {failure}")
+            t, y = float(solver.t), solver.y.copy()
+            after = self._event_values(y)
+            fallen = np.flatnonzero((before >= 0.0) & (after < 0.0))
+            if len(fallen):
+                t, event = self._first(fallen, solver)
+                y = np.asarray(solver.dense_output()(t)) if t < solver.t else y
+            times.append(t)
+            states.append(y)
+            before = after
+        rows = np.array(states)
+        self.segments.append(Segment(np.array(times), rows, self.observations(rows), event))
+        self.t, self.y = times[-1], rows[-1].copy()
         return event
+
+    def _first(self, fallen: NDArray[np.intp], solver: LSODA) -> tuple[float, int]:
+        """Instant and number of the first of the events that happened within the last step."""
+        course, begin, end = solver.dense_output(), float(solver.t_old or 0.0), float(solver.t)
+
+        def located(j: int) -> float:
+            def value(t: float) -> float:
+                return float(self._event_values(course(t))[j])
+
+            # the interpolant may differ in the last digits from the solution at the ends of the step
+            if value(begin) <= 0.0:
+                return begin
+            return float(brentq(value, begin, end, xtol=1e-12)) if value(end) < 0.0 else end
+
+        return min((located(int(j)), int(j)) for j in fallen)
+
+    def _event_values(self, y: Array) -> Array:
+        self.evaluate(y)
+        return self._g.copy()
 
     def observations(self, states: Array) -> Array:
         """Observations at given states with the present switches."""
@@ -99,32 +136,23 @@ class Stepper:
         )
 
     def overdue(self) -> int | None:
-        """Valve or piston whose condition has passed already, because it did so together with another event."""
+        """Switch whose condition has passed already: together with another event, or as a phase began."""
         self.evaluate(self.y)
+        if self.network.drive[0]["mode"] in (RAMP, HOLD) and self._g[2] < 0.0:
+            return 2
         passages, pistons = len(self.network.passages), len(self.network.pistons)
         for j in range(3, 3 + passages):
-            if self._g[j] < -_PRESSURE_SLACK:
+            if self._g[j] < 0.0:
                 return j
         for i in range(pistons):
             j = 3 + passages + 2 * i
-            if self.network.moving[i] == STUCK and self._g[j] < -_FORCE_SLACK:
+            if self.network.moving[i] == STUCK and self._g[j] < 0.0:
                 return j
         return None
 
     def _rates(self, _t: float, y: Array) -> Array:
         self.evaluate(y)
         return self._dy.copy()
-
-    def _event(self, j: int) -> Callable[[float, Array], float]:
-        def value(_t: float, y: Array) -> float:
-            if self._at is not y:
-                self.evaluate(y)
-                self._at = y
-            return float(self._g[j])
-
-        value.terminal = True  # type: ignore[attr-defined]  # how solve_ivp is told
-        value.direction = -1.0  # type: ignore[attr-defined]
-        return value
 
 
 def _tolerances(network: Network) -> Array:
@@ -212,5 +240,5 @@ def _push(network: Network, y: Array, i: int) -> float:
         states, network.nodes, network.pumps, network.passages, network.pistons, network.drive, network.opened,
         network.moving, network.events,
     )  # fmt: skip
-    piston = network.pistons[i]
-    return float(piston["S"] * (seen[0, FIRST_PRESSURE + piston["node"]] - piston["gas"]))
+    node = network.pistons[i]["node"]
+    return float(piston_push(network.pistons[i], seen[0, FIRST_PRESSURE + node], network.nodes[node]))

@@ -5,12 +5,21 @@ from math import ceil, floor, isfinite, pi
 import numpy as np
 
 from stommel.design.engine.circuit import assemble, trains
-from stommel.design.engine.circuit_equations import BLADDER_FLOW, CURRENT, FIRST_PRESSURE, P_ATM, POWER, VOLTAGE
+from stommel.design.engine.circuit_equations import BLADDER_FLOW, CURRENT, FIRST_PRESSURE, POWER, VOLTAGE
 from stommel.design.engine.ideal import ideal_engine
 from stommel.design.engine.network import (
-    ACCUMULATOR, BLADDER, HULL_GAS, LEDGER, LINE, LOCKED, LOSSES, OIL, RAMP, SEA, SOLENOID_VALVE, STUCK, SUPPLY,
-    Network, rad_s,
+    HULL_GAS,
+    LEDGER,
+    LOCKED,
+    LOSSES,
+    RAMP,
+    SEA,
+    SOLENOID_VALVE,
+    STUCK,
+    SUPPLY,
+    rad_s,
 )  # fmt: skip
+from stommel.design.engine.rest import all_oil, at_rest, stored_energy
 from stommel.design.engine.results import Array, Courses, EngineRun, Outcome, PhaseResult
 from stommel.design.engine.segments import Stepper, stop_motor, switch
 from stommel.errors import StommelError
@@ -94,7 +103,7 @@ def _check(
     for what, volume in (("inflate", inflate_m3), ("deflate", deflate_m3)):
         if not 0.0 <= volume * 1e6 <= most + 1e-6:
             raise EngineRequestError(
-                f"{what} = {volume * 1e6:g} ml: the working range of {engine.sensor.measures!r} holds 0 to {most:.1f} ml"
+                f"{what} = {volume * 1e6:g} ml: the range of {engine.sensor.measures!r} is 0 to {most:.1f} ml"
             )
     if inflate_m3 == 0.0 and deflate_m3 == 0.0:
         raise EngineRequestError("nothing to do: give a volume to inflate or to deflate greater than 0")
@@ -121,7 +130,7 @@ class _Cycle:
         self.engine = engine
         self.network = assemble(engine)
         self.network.drive[0]["pressure"] = pressure_pa
-        self.stepper = Stepper(self.network, _at_rest(self.network, engine, full=full))
+        self.stepper = Stepper(self.network, at_rest(self.network, engine, full=full))
         self.phases: list[PhaseResult] = []
         self.events: list[tuple[float, str]] = []
         self.at_begin = self.stepper.y.copy()
@@ -169,17 +178,22 @@ class _Cycle:
 
     def _advance(self, until: float) -> str | None:
         """Go to the next event, or to `until`, and switch; return the event's name."""
+        self._catch_up()
         event = self.stepper.advance(until)
         found = None
         if event is not None:
             found = switch(self.network, self.stepper.y, event)
             self.events.append((self.stepper.t, found))
-        for _ in range(len(self.network.opened) + len(self.network.moving)):
+        self._catch_up()
+        return found
+
+    def _catch_up(self) -> None:
+        """Switch what should have switched already, each part at most once."""
+        for _ in range(1 + len(self.network.opened) + len(self.network.moving)):
             late = self.stepper.overdue()
             if late is None:
-                break
+                return
             self.events.append((self.stepper.t, switch(self.network, self.stepper.y, late)))
-        return found
 
     def _until_done(self, volume_m3: float, *, turning: bool) -> Outcome:
         """Advance until the oil has been moved and everything rests, or cannot be moved."""
@@ -219,6 +233,7 @@ class _Cycle:
         revolved = sum(float(np.trapezoid(np.abs(rows[:, 0]), t)) for t, rows in states)
         moved = float(y[1 + net.bladder] - before[1 + net.bladder])
         swept = revolved * float(net.drive[0]["q_rad"])
+        piston_swept = abs(self.position(y) - self.position(before)) * float(net.pistons[net.drive[0]["measured"]]["S"])
         self.phases.append(
             PhaseResult(
                 name=name,
@@ -234,14 +249,14 @@ class _Cycle:
                 stored_j=stored_energy(net, y) - stored_energy(net, before),
                 peak_current_a=float(np.abs(seen[:, CURRENT]).max()),
                 peak_supply_current_a=float(seen[:, POWER].max() / net.drive[0]["U"]),
-                volumetric_efficiency=abs(moved) / swept if swept > 0.0 else None,
+                volumetric_efficiency=piston_swept / swept if swept > 0.0 else None,
             )
         )
 
     def result(self, name: str, *, ideal: bool) -> EngineRun:
         """Everything that happened."""
         net, y = self.network, self.stepper.y
-        lost = abs(_all_oil(net, y) - _all_oil(net, self.at_begin))
+        lost = abs(all_oil(net, y) - all_oil(net, self.at_begin))
         seen = np.concatenate([segment.seen for segment in self.stepper.segments])
         return EngineRun(
             name=name,
@@ -275,62 +290,3 @@ def _on_the_grid(position_m: float, step_m: float, towards: int) -> float:
     """First reading of the sensor at or beyond a position in the direction of travel [m]."""
     steps = position_m / step_m
     return step_m * (floor(steps + 1e-6) if towards < 0 else ceil(steps - 1e-6))
-
-
-def _at_rest(network: Network, engine: Engine, *, full: bool) -> Array:
-    """State at rest: the measured piston at the end of its range, every node at the pressure of what it is open to."""
-    y = np.zeros(network.size)
-    positions = slice(network.first_position, network.first_velocity)
-    for i, piston in enumerate((*engine.reservoirs, *engine.cylinders)):
-        y[network.first_position + i] = piston.working_range_mm[0 if full else 1] / 1e3
-    measured = engine.measured_piston
-    y[1 + network.bladder] = measured.working_volume_ml / 1e6 if full else 0.0
-    sea = network.drive[0]["pressure"] + network.nodes[network.bladder]["stiffness"] * y[1 + network.bladder]
-    open_to_sea = {network.bladder}
-    lines = [(row["a"], row["b"]) for row in network.passages if row["kind"] == LINE]
-    for _ in lines:
-        for a, b in lines:
-            if a in open_to_sea or b in open_to_sea:
-                open_to_sea |= {int(a), int(b)}
-    inside = float(network.pistons[0]["gas"])
-    for n, node in enumerate(network.nodes):
-        held = network.pistons["node"] == n
-        chambers = float(np.sum(network.pistons["S"][held] * y[positions][held]))
-        p = sea if n in open_to_sea else inside
-        if node["kind"] == OIL:
-            y[1 + n] = p * (node["volume"] + chambers) / node["K"]
-        elif node["kind"] == ACCUMULATOR:
-            filled = node["gas_volume"] * (1.0 - (node["precharge"] / max(p + P_ATM, 1.0)) ** (1.0 / node["exponent"]))
-            empty = (p + P_ATM - node["precharge"]) * (node["volume"] + chambers) / node["K"]
-            y[1 + n] = filled if filled > 0.0 else empty
-            network.opened[len(network.passages) + n] = int(filled > 0.0)
-    return y
-
-
-def stored_energy(network: Network, y: Array) -> float:
-    """Energy in rotor, pistons, compressed oil, bladder and accumulators [J]."""
-    positions = y[network.first_position : network.first_velocity]
-    velocities = y[network.first_velocity : network.first_entry]
-    energy = 0.5 * network.drive[0]["J"] * y[0] ** 2 + 0.5 * float(np.sum(network.pistons["mass"] * velocities**2))
-    for n, node in enumerate(network.nodes):
-        stock = y[1 + n]
-        held = network.pistons["node"] == n
-        volume = node["volume"] + float(np.sum(network.pistons["S"][held] * positions[held]))
-        if node["kind"] == BLADDER:
-            energy += 0.5 * node["stiffness"] * stock**2
-        elif node["kind"] == ACCUMULATOR and stock > 0.0:
-            V, p, k = node["gas_volume"], node["precharge"], node["exponent"]
-            share = V / (V - stock)
-            work = p * V * np.log(share) if k == 1.0 else p * V / (k - 1.0) * (share ** (k - 1.0) - 1.0)
-            energy += work - P_ATM * stock
-        elif node["kind"] == ACCUMULATOR:
-            energy += (node["precharge"] - P_ATM) * stock + 0.5 * node["K"] * stock**2 / volume
-        else:
-            energy += 0.5 * node["K"] * stock**2 / volume
-    return float(energy)
-
-
-def _all_oil(network: Network, y: Array) -> float:
-    """Oil in nodes and chambers, as volume without pressure [m3]."""
-    positions = y[network.first_position : network.first_velocity]
-    return float(np.sum(y[1 : network.first_position]) + np.sum(network.pistons["S"] * positions))

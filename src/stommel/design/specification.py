@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 
 from stommel.analysis import UnreachableFlightError, flight_envelope, trim_table
+from stommel.design.energy import endurance
+from stommel.errors import StommelError
 from stommel.vehicle import Physics, Vehicle
 
 
@@ -49,7 +51,7 @@ def specification_check(vehicle: Vehicle, physics: Physics) -> tuple[Specificati
     at_least("Pitch, climbing", "deg", spec.pitch_deg, _steepest(vehicle, +1.0, physics), "steepest reachable climb")
     at_least("Rudder", "deg", spec.rudder_deg, rudder.travel_deg if rudder else None, "actuators.rudder.travel_deg")
     at_least("Speed", "m/s", spec.speed_m_s, _greatest_speed(vehicle, physics), "fastest at the design pitch")
-    at_least("Endurance", "days", spec.endurance_days, None, "needs the energy model, which this version lacks")
+    at_least("Endurance", "days", spec.endurance_days, *_endurance(vehicle, physics))
     return tuple(rows)
 
 
@@ -90,3 +92,16 @@ def _greatest_speed(vehicle: Vehicle, physics: Physics) -> float | None:
         return None
     (row,) = flight_envelope(vehicle, pitches_deg=[-spec.design_pitch_deg], physics=physics)
     return row.fastest.V if row.fastest else 0.0
+
+
+def _endurance(vehicle: Vehicle, physics: Physics) -> tuple[float | None, str]:
+    """Endurance [days] at the design flight and depth, and how it was found, or why not."""
+    d = vehicle.description
+    if d.battery is None or d.energy is None or not d.consumers:
+        return None, "needs the tables [battery], [energy] and [[consumers]]"
+    try:
+        found = endurance(vehicle, physics=physics)
+    except StommelError as error:
+        return None, str(error)
+    wanted = found.wanted
+    return found.days, f"dives to {wanted.depth_m:g} m at {wanted.speed_m_s:g} m/s, pitch {wanted.pitch_deg:g} deg"

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from math import radians
 from typing import Literal
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from stommel.design.drives import PitchDrive, RudderDrive
 from stommel.design.energy.actuator_work import PitchDriveWork, PumpWork, RudderWork
+from stommel.design.energy.engine_work import pump_by_engine
 from stommel.vehicle import Vehicle
 from stommel.vehicle.schema import EnergyPlan
 
@@ -62,6 +64,8 @@ class ActuatorModels:
         """Actuators that the file describes as machines."""
         drives = self.vehicle.description.drives
         found: set[Actuator] = set()
+        if self.vehicle.description.engine is not None:
+            found.add("pump")
         if drives is not None and drives.pitch is not None:
             found.add("pitch")
         if drives is not None and drives.rudder is not None and self.vehicle.description.rudder is not None:
@@ -74,6 +78,8 @@ class ActuatorModels:
 
     def pump(self, plan: EnergyPlan) -> PumpWork:
         """Cost of moving oil."""
+        if "pump" in self.described:
+            return pump_by_engine(self.vehicle, self.deepest_pa)
         return pump_by_efficiency(self.vehicle, plan, self.deepest_pa)
 
     def pitch(self, plan: EnergyPlan) -> PitchDriveWork:
@@ -139,7 +145,7 @@ def pitch_drive_by_machinery(vehicle: Vehicle) -> PitchDriveWork:
         slope=np.tan(PITCHES),
         forward_j_m=np.array([np.inf if cost is None else cost for cost in costs]),
         forward_s_m=np.array(slowness),
-        origin="[drives.pitch]",
+        origin="the table drives.pitch",
     )
 
 
@@ -162,16 +168,20 @@ def pitch_drive_by_efficiency(vehicle: Vehicle, plan: EnergyPlan) -> PitchDriveW
 
 def rudder_by_machinery(vehicle: Vehicle, plan: EnergyPlan) -> RudderWork:
     """The drive that [drives.rudder] describes; infinite cost where its motor stalls."""
-    drive, angle = RudderDrive.of(vehicle), radians(plan.rudder_turn_deg)
+    return _rudder_table(RudderDrive.of(vehicle), radians(plan.rudder_turn_deg), plan.rudder_hold_s)
+
+
+@lru_cache(maxsize=64)
+def _rudder_table(drive: RudderDrive, angle: float, hold: float) -> RudderWork:
     if angle == 0.0:
-        return RudderWork(SPEEDS_SQUARE, np.zeros_like(SPEEDS_SQUARE), 0.0, "[drives.rudder]")
-    turns = [drive.turn(angle, float(np.sqrt(square)), plan.rudder_hold_s) for square in SPEEDS_SQUARE]
+        return RudderWork(SPEEDS_SQUARE, np.zeros_like(SPEEDS_SQUARE), 0.0, "the table drives.rudder")
+    turns = [drive.turn(angle, float(np.sqrt(square)), hold) for square in SPEEDS_SQUARE]
     still = turns[0]
     return RudderWork(
         speed_square=SPEEDS_SQUARE,
         turn_j=np.array([np.inf if turn is None else turn.energy for turn in turns]),
         turn_s=np.inf if still is None else still.out.time + still.back.time,
-        origin="[drives.rudder]",
+        origin="the table drives.rudder",
     )
 
 

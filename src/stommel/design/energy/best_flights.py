@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.analysis.limits import reachable
-from stommel.analysis.steady_equations import ALPHA, QUANTITIES, R_PX, THETA, V_B, V
-from stommel.analysis.wings_level import trim_many
+from stommel.analysis.steady_equations import ALPHA, CONVERGED, QUANTITIES, R_PX, THETA, V_B, V
+from stommel.analysis.wings_level import trim_at_ballast, trim_many
 from stommel.design.energy.dive_cycle import Glides, dive_cycle
 from stommel.design.energy.endurance import DAY
 from stommel.design.energy.model import EnergyModel
@@ -65,8 +65,8 @@ class BestFlights:
 def best_flights(vehicle: Vehicle, model: EnergyModel, *, physics: Physics, deepest_m: float) -> BestFlights:
     """Search speeds, pitches and depths for the longest and the farthest mission.
 
-    Speeds begin at energy.slowest_speed_m_s; pitches are the specification's. A grid over everything
-    reachable, then finer grids about the best of it.
+    Speeds begin at energy.slowest_speed_m_s; pitches are the specification's. A grid over shares of the speed between
+    the slowest and what the ballast gives at each pitch, pitches and depths; then finer grids about the best of it.
 
     Raises
     ------
@@ -79,13 +79,10 @@ def best_flights(vehicle: Vehicle, model: EnergyModel, *, physics: Physics, deep
         raise NoDiveError(f"depth = {deepest_m:g} m: must be deeper than energy.upper_turn_m = {shallow:g}")
     spec = vehicle.description.specification
     gentle, steep = (spec.shallowest_pitch_deg, spec.pitch_deg) if spec else (SHALLOWEST_DEG, STEEPEST_DEG)
-    lowest = np.array([slowest, radians(gentle), shallow + 0.05 * (deepest_m - shallow)])
-    highest = np.array([max(FASTEST_M_S, slowest), radians(steep), deepest_m])
-    axes = [
-        np.geomspace(lowest[0], highest[0], SPEEDS),
-        np.linspace(lowest[1], highest[1], PITCHES),
-        np.linspace(lowest[2], highest[2], DEPTHS),
-    ]
+    lowest = np.array([0.0, radians(gentle), shallow + 0.05 * (deepest_m - shallow)])
+    highest = np.array([1.0, radians(steep), deepest_m])
+    counts = (SPEEDS, PITCHES, DEPTHS)
+    axes = [np.linspace(low, high, count) for low, high, count in zip(lowest, highest, counts, strict=True)]
     search = _Search(vehicle, model, physics)
     first = search.over(axes)
     found = {}
@@ -121,7 +118,7 @@ class _Point:
 
 @dataclass(frozen=True)
 class _Field:
-    """Endurance [s] and range [m] over a grid of speeds, pitches and depths; minus infinity out of reach."""
+    """Endurance [s] and range [m] over a grid; minus infinity out of reach."""
 
     axes: list[Array]
     endurance: Array
@@ -145,57 +142,87 @@ class _Search:
         self.stored = model.stored
 
     def over(self, axes: list[Array]) -> _Field:
-        """Endurance and range on the grid of `axes`: speed [m/s], pitch of the climb [rad], depth [m]."""
-        speed, pitch = (grid.ravel() for grid in np.meshgrid(axes[0], axes[1], indexing="ij"))
-        dive, dives = self._trims(speed, -pitch)
-        climb, climbs = self._trims(speed, pitch)
-        ok = dives & climbs
-        shape = (len(axes[0]), len(axes[1]), len(axes[2]))
-        endurance, distance = np.full(shape, -np.inf), np.full(shape, -np.inf)
-        if ok.any():
-            cycle = dive_cycle(self.model, glides_from(dive[ok], climb[ok]), axes[2][np.newaxis, :])
-            power = cycle.total_j / cycle.duration_s + self.stored.self_discharge_w
-            lasting = self.stored.usable_j / power
-            flat = ok.reshape(shape[:2])
-            endurance[flat] = np.where(np.isfinite(lasting) & (lasting > 0.0), lasting, -np.inf)
-            distance[flat] = endurance[flat] * cycle.distance_m / cycle.duration_s
+        """Endurance and range on the grid of `axes`: share of the speeds [1], pitch of the climb [rad], depth [m]."""
+        fastest = np.array([self.fastest(float(pitch)) for pitch in axes[1]])
+        slowest = self.model.plan.slowest_speed_m_s
+        speed = slowest + axes[0][:, np.newaxis] * (fastest - slowest)
+        pitch = np.broadcast_to(axes[1], speed.shape)
+        endurance, distance = self.flown(np.where(fastest >= slowest, speed, np.nan), pitch, axes[2])
         return _Field(axes, endurance, distance)
 
+    def flown(self, speed: Array, pitch: Array, depth: Array) -> tuple[Array, Array]:
+        """Endurance [s] and range [m] of dives at pairs of speed and pitch, to each of the depths."""
+        shape = (*speed.shape, len(depth))
+        endurance, distance = np.full(shape, -np.inf), np.full(shape, -np.inf)
+        dive, dives = self._trims(speed.ravel(), -pitch.ravel())
+        climb, climbs = self._trims(speed.ravel(), pitch.ravel())
+        ok = dives & climbs
+        if ok.any():
+            with np.errstate(invalid="ignore"):
+                cycle = dive_cycle(self.model, glides_from(dive[ok], climb[ok]), depth[np.newaxis, :])
+                lasting = self.stored.usable_j / (cycle.total_j / cycle.duration_s + self.stored.self_discharge_w)
+            flat = ok.reshape(speed.shape)
+            endurance[flat] = np.where(np.isfinite(lasting) & (lasting > 0.0), lasting, -np.inf)
+            distance[flat] = endurance[flat] * cycle.distance_m / cycle.duration_s
+        return endurance, distance
+
+    def fastest(self, pitch: float) -> float:
+        """Speed [m/s] that the whole ballast gives at a pitch [rad], in the dive and in the climb; NaN if none."""
+        engine = self.vehicle.description.actuators.buoyancy
+        assert engine is not None
+        found = FASTEST_M_S
+        for side, V_limit in ((-1.0, engine.volume_m3[0]), (1.0, engine.volume_m3[1])):
+            z = np.zeros(QUANTITIES)
+            if trim_at_ballast(self.record, side * pitch, V_limit, self.water, z) != CONVERGED:
+                return float("nan")
+            found = min(found, float(z[V]))
+        return found * (1.0 - 1e-9)  # inside the limit by more than rounding
+
     def _trims(self, speed: Array, pitch: Array) -> tuple[Array, NDArray[np.bool_]]:
-        flights = np.zeros((len(speed), QUANTITIES))
-        codes = trim_many(self.record, speed, pitch, False, self.water, flights)
-        return flights, reachable(self.vehicle, flights, codes)
+        flights, flyable = np.zeros((len(speed), QUANTITIES)), np.isfinite(speed)
+        codes = trim_many(self.record, np.where(flyable, speed, 1.0), pitch, False, self.water, flights)
+        return flights, reachable(self.vehicle, flights, codes) & flyable
 
     def flight(self, point: Array, lowest: Array, highest: Array) -> BestFlight:
         """The dive at one point, with the limits that it lies at."""
         field = self.over([point[k : k + 1] for k in range(3)])
-        limits = []
-        if point[0] <= lowest[0] * (1.0 + 1e-6):
-            limits.append("energy.slowest_speed_m_s")
-        if point[1] <= lowest[1] * (1.0 + 1e-6):
-            limits.append("shallowest pitch")
-        if point[1] >= highest[1] * (1.0 - 1e-6):
-            limits.append("steepest pitch")
-        if point[2] >= highest[2] * (1.0 - 1e-6):
-            limits.append("depth")
-        limits += self._broken_beside(point)
+        slowest, fastest = self.model.plan.slowest_speed_m_s, self.fastest(float(point[1]))
+        names = (("slowest speed", "ballast volume"), ("shallowest pitch", "steepest pitch"), ("", "depth"))
+        near = 1e-6 * (highest - lowest)
+        limits = [
+            low for (low, _), x, least, e in zip(names, point, lowest, near, strict=True) if low and x <= least + e
+        ]
+        limits += [high for (_, high), x, most, e in zip(names, point, highest, near, strict=True) if x >= most - e]
         return BestFlight(
-            speed_m_s=float(point[0]),
+            speed_m_s=float(slowest + point[0] * (fastest - slowest)),
             pitch_deg=-degrees(point[1]),
             depth_m=float(point[2]),
             endurance_s=float(field.endurance[0, 0, 0]),
             range_m=float(field.range[0, 0, 0]),
-            limits=tuple(limits),
+            limits=tuple(limits + self._beside(point, lowest, highest)),
         )
 
-    def _broken_beside(self, point: Array) -> list[str]:
-        """Limits of the vehicle that a little more or less pitch, or more speed, would break."""
-        beside = [(1.0, -0.01), (1.0, 0.01), (1.005, 0.0)]
-        words = ("a shallower pitch is out of reach", "a steeper pitch is out of reach", "faster is out of reach")
-        speed = np.array([point[0] * factor for factor, _ in beside])
-        pitch = np.array([point[1] + step for _, step in beside])
-        fine = self._trims(speed, -pitch)[1] & self._trims(speed, pitch)[1]
-        return [word for word, ok in zip(words, fine, strict=True) if not ok]
+    def _beside(self, point: Array, lowest: Array, highest: Array) -> list[str]:
+        """Say where a little more or less pitch is out of reach: stall, or the travel of the moving mass."""
+        found = []
+        for step, word in ((-0.01, "shallower"), (0.01, "steeper")):
+            pitch = point[1] + step
+            if lowest[1] <= pitch <= highest[1]:
+                field = self.over([point[:1], np.array([pitch]), point[2:]])
+                if not np.isfinite(field.endurance).any():
+                    found.append(f"a {word} pitch cannot be flown")
+        return found
+
+
+def endurance_over_speed(
+    vehicle: Vehicle, model: EnergyModel, physics: Physics, pitch_deg: float, depth_m: float
+) -> tuple[Array, Array, Array]:
+    """Speeds [m/s] that can be flown at one pitch, endurance [days] and range [km] there."""
+    speeds = np.linspace(model.plan.slowest_speed_m_s, FASTEST_M_S, 241)
+    pitch = np.full_like(speeds, radians(abs(pitch_deg)))
+    endurance, distance = _Search(vehicle, model, physics).flown(speeds, pitch, np.array([depth_m]))
+    flown = np.isfinite(endurance[:, 0])
+    return speeds[flown], endurance[flown, 0] / DAY, distance[flown, 0] / 1e3
 
 
 def glides_from(dive: Array, climb: Array) -> Glides:

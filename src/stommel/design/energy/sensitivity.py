@@ -97,7 +97,9 @@ def assumptions(vehicle: Vehicle, result: Endurance) -> Iterator[Assumption]:
         if value := getattr(model.battery, name):
             yield of(f"battery.{name}", f"battery: {_words(name)}", value)
     described = model.actuators.described
-    unused = {"slowest_speed_m_s"}.union(*(PLAN_KEYS[actuator] for actuator in described))
+    unused = {"slowest_speed_m_s", *(("upper_turn_m",) if model.plan.dives_per_surfacing == 1 else ())}.union(
+        *(PLAN_KEYS[actuator] for actuator in described)
+    )
     for name in EnergyPlan.model_fields:
         value = getattr(model.plan, name)
         if value and name not in unused:
@@ -132,7 +134,7 @@ def sensitivity(
     """Vary every assumption alone, about its value; the ones with the widest span of endurance come first.
 
     A number with a source is varied by 10 %, an assumption and the energy of an actuator by 30 %, the temperature by
-    5 K; shares stay between 0 and 1.
+    5 K. Of a share above one half, such as an efficiency, the remainder is varied.
 
     Parameters
     ----------
@@ -208,9 +210,9 @@ def _span(assumption: Assumption, deepest_m: float) -> tuple[float, float]:
         span = SPAN_OF_MODELLED
     else:
         span = SPAN_OF_SOURCED if assumption.origin.kind == "source" else SPAN_OF_ASSUMED
-    low, high = sorted((value * (1.0 - span), value * (1.0 + span)))
-    if name in _SHARES:
-        high = min(high, 1.0)
+    # of an efficiency it is the loss that is uncertain
+    change = span * (1.0 - value if name in _SHARES and value > 0.5 else abs(value))
+    low, high = value - change, value + change
     return low, min(high, deepest_m) if key == "dive.depth_m" else high
 
 
@@ -232,7 +234,7 @@ def _needed(
     days: Callable[[float], float | None], assumption: Assumption, slope: float, result: Endurance, target: float
 ) -> float | None:
     """Value that alone gives the target: by secants on the mean power, in which most numbers are linear."""
-    if slope == 0.0:
+    if slope == 0.0 or assumption.key == "battery.voltage_v":  # the machines are made for the voltage
         return None
     low, high = _allowed(assumption, result)
     rising = slope > 0.0 if assumption.value > 0.0 else slope < 0.0

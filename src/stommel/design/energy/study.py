@@ -8,6 +8,9 @@ from stommel.design.energy.endurance import DAY, Endurance, balance, endurance
 from stommel.design.energy.sensitivity import Sensitivity, sensitivity
 from stommel.vehicle import PAPER, Physics, Vehicle
 
+LEAST_SPAN_DAYS = 0.1
+"""An assumption that moves the endurance by less is no step towards closing a gap."""
+
 
 @dataclass(frozen=True)
 class GapStep:
@@ -135,19 +138,26 @@ def energy_study(
     return EnergyStudy(vehicle, physics, result, best, tuple(found), target, gap)
 
 
+def _may_be_favourable(one: Sensitivity) -> bool:
+    """Whether an assumption may be taken at its better end: it is uncertain, matters, and is not the mission itself."""
+    key = one.assumption.key
+    return (
+        one.assumption.origin.kind != "source"
+        and key not in {"water.temperature_c", "energy.surface_session_s"}
+        and one.span_days > LEAST_SPAN_DAYS
+    )
+
+
 def _gap(result: Endurance, sensitivities: list[Sensitivity], target: float) -> Gap:
     stored = result.stored
     allowed = stored.usable_j / (target * DAY) - stored.self_discharge_w
     steps: list[GapStep] = []
     model, days = result.model, result.days
     for one in sensitivities:
-        a = one.assumption
-        if a.origin.kind == "source" or a.key == "water.temperature_c" or days >= target:
+        if days >= target or not _may_be_favourable(one):
             continue
-        if one.days_at_low is None or one.days_at_high is None:
-            continue
-        value = one.low if one.days_at_low > one.days_at_high else one.high
-        model = model.changed(a.key, value)
+        value = one.low if (one.days_at_low or 0.0) > (one.days_at_high or 0.0) else one.high
+        model = model.changed(one.assumption.key, value)
         days = balance(model, result.wanted, result.dive, result.climb).days
         steps.append(GapStep(one, value, days))
     return Gap(

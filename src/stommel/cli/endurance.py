@@ -1,0 +1,181 @@
+"""`stommel endurance`: how long and how far one charge lasts, and what it rests on."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.output import number, show_json, show_table, show_values
+
+if TYPE_CHECKING:
+    from stommel.design.energy import BestFlight, EnergyStudy, Gap, Sensitivity
+
+MOST_SHOWN = 12
+
+
+def endurance(
+    vehicle: VehicleArgument,
+    depth: Annotated[float | None, typer.Option("--depth", help="Depth of the dives [m]; the specification's.")] = None,
+    speed: Annotated[
+        float | None, typer.Option("--speed", help="Speed along the path [m/s]; the specification's design speed.")
+    ] = None,
+    pitch: Annotated[
+        float | None, typer.Option("--pitch", help="Pitch of the dives [deg], negative; the specification's.")
+    ] = None,
+    temperature: Annotated[
+        float | None, typer.Option("--temperature", help="Temperature of the water [deg C]; water.temperature_c.")
+    ] = None,
+    physics: PhysicsOption = PhysicsChoice.paper,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", help="Write the plots as PNG and SVG to this path without its ending.")
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Energy of a dive by part, endurance, range, best flights, and what each assumption is worth.
+
+    Example: stommel endurance zju --depth 200 --speed 0.4 --pitch -35
+    """
+    from stommel.design.energy import energy_study
+
+    study = energy_study(
+        load(vehicle),
+        speed_m_s=speed,
+        pitch_deg=pitch,
+        depth_m=depth,
+        temperature_c=temperature,
+        physics=physics_of(physics),
+    )
+    written: list[Path] = []
+    if plot is not None:
+        from stommel.design.energy.figure import endurance_figure
+        from stommel.design.plots import save_figure
+
+        written = save_figure(endurance_figure(study), plot)
+    if as_json:
+        show_json(study.as_row() | {"plots": [str(path) for path in written]})
+        return
+    _show(study)
+    for path in written:
+        typer.echo(f"wrote {path}")
+
+
+def _show(study: "EnergyStudy") -> None:
+    _show_answer(study)
+    _show_parts(study)
+    _show_best(study)
+    if study.gap is not None:
+        _show_gap(study.gap)
+    _show_sensitivity(study)
+    _show_assumptions(study)
+
+
+def _show_answer(study: "EnergyStudy") -> None:
+    result, cycle, stored = study.result, study.result.cycle, study.result.stored
+    wanted = result.wanted
+    asked = ""
+    if study.target_days is not None:
+        asked = f"; {study.target_days:g} days asked: {'met' if study.gap is None else 'NOT MET'}"
+    minutes = float(cycle.duration_s) / 60.0
+    show_values(
+        f"{study.vehicle.name}: dives to {wanted.depth_m:g} m at {wanted.speed_m_s:g} m/s, "
+        f"pitch {wanted.pitch_deg:g} deg",
+        {
+            "endurance": f"{result.days:.1f} days{asked}",
+            "range": f"{result.range_m / 1e3:.0f} km in still water",
+            "dives": f"{result.dives:.0f} of {minutes:.1f} minutes, {float(cycle.surface_s):.0f} s at the surface",
+            "mean power": f"{result.mean_power_w:.2f} W",
+            "battery": f"{stored.usable_j / 3.6e6:.3f} of {stored.rated_j / 3.6e6:.3f} kWh usable, at "
+            f"{result.model.temperature_c:g} deg C",
+            "ballast": f"{(result.climb.V_b - result.dive.V_b) * 1e6:.0f} ml from dive to climb, "
+            f"{_pressure_mpa(study):.2f} MPa at depth",
+        },
+    )
+
+
+def _pressure_mpa(study: "EnergyStudy") -> float:
+    """Pressure at the depth of the dive [MPa]."""
+    return float(study.result.model.pressure(study.result.wanted.depth_m)) / 1e6
+
+
+def _show_parts(study: "EnergyStudy") -> None:
+    energies = study.result.energy_per_dive_j
+    total, time = sum(energies.values()), float(study.result.cycle.duration_s)
+    rows = [
+        [name, number(energy, 0), number(energy / time, 3), number(100.0 * energy / total, 1)]
+        for name, energy in sorted(energies.items(), key=lambda item: -item[1])
+    ]
+    rows.append(["all", number(total, 0), number(total / time, 3), number(100.0, 1)])
+    show_table("Energy of a dive, from the battery", ["part", "energy\nJ", "mean\nW", "share\n%"], rows)
+
+
+def _show_best(study: "EnergyStudy") -> None:
+    def words(best: "BestFlight") -> str:
+        at = f"{best.speed_m_s:.3f} m/s, pitch {best.pitch_deg:.1f} deg, {best.depth_m:.0f} m"
+        return f"{best.endurance_s / 86400.0:.1f} days, {best.range_m / 1e3:.0f} km: {at}"
+
+    def limits(best: "BestFlight") -> str:
+        return "limited by " + (", ".join(best.limits) or "nothing: an optimum inside the envelope")
+
+    longest, farthest = study.best.longest, study.best.farthest
+    show_values(
+        "Best dives within the vehicle's limits",
+        {
+            "longest": words(longest),
+            "": limits(longest),
+            "farthest": words(farthest),
+            " ": limits(farthest),
+        },
+    )
+
+
+def _show_gap(gap: "Gap") -> None:
+    rows = [
+        [f"{step.sensitivity.assumption.what}", f"{step.sensitivity.assumption.value:.4g}", f"{step.value:.4g}",
+         number(step.days, 1)]
+        for step in gap.steps
+    ]  # fmt: skip
+    alone = [
+        f"Alone would do: {one.assumption.key} = {one.needed:.4g} instead of {one.assumption.value:.4g}"
+        for one in gap.alone
+        if one.needed is not None
+    ]
+    end = "Together they reach it." if gap.closed else "All of them together do not reach it."
+    show_table(
+        f"{gap.target_days:g} days allow {gap.allowed_power_w:.2f} W: {gap.missing_power_w:.2f} W too much\n"
+        "Assumptions at their favourable ends, one upon the other",
+        ["assumption", "is", "taken as", "days"],
+        rows,
+        [end, *alone, ""],
+    )
+
+
+def _show_sensitivity(study: "EnergyStudy") -> None:
+    def row(one: "Sensitivity") -> list[str]:
+        a = one.assumption
+        unit = "" if a.unit == "1" else f" {a.unit}"
+        return [
+            a.what,
+            f"{a.value:.4g}{unit}",
+            f"{one.elasticity:+.3f}",
+            f"{number(one.days_at_low, 1)} to {number(one.days_at_high, 1)}",
+        ]
+
+    show_table(
+        "Sensitivity: assumptions by 30 %, numbers with a source by 10 %",
+        ["number", "value", "elasticity", "days"],
+        [row(one) for one in study.sensitivities[:MOST_SHOWN]],
+        [f"{len(study.sensitivities) - MOST_SHOWN} more with --json." if len(study.sensitivities) > MOST_SHOWN else ""],
+    )
+
+
+def _show_assumptions(study: "EnergyStudy") -> None:
+    from rich.markup import escape
+
+    from stommel.design.energy.study import MODEL_ASSUMPTIONS
+
+    assumed = [one.assumption for one in study.sensitivities if one.assumption.origin.kind != "source"]
+    rows = [
+        [a.key, f"{a.value:.4g}", escape(a.origin.text) or "not stated"] for a in sorted(assumed, key=lambda a: a.key)
+    ]
+    show_table("Assumptions", ["key", "value", "why"], rows, MODEL_ASSUMPTIONS)

@@ -18,7 +18,7 @@ Actuator = Literal["pump", "pitch", "rudder"]
 ACTUATORS: tuple[Actuator, ...] = ("pump", "pitch", "rudder")
 
 PRESSURES = 41
-PITCHES = np.radians(np.linspace(-89.0, 89.0, 179))
+PITCHES = np.radians(np.linspace(-88.0, 88.0, 89))
 SPEEDS_SQUARE = np.array([0.0, 1.0, 6.25])
 """Squares of the speeds at which the rudder's cost is tabulated [m2/s2]; its hinge moment is linear in them."""
 
@@ -78,8 +78,9 @@ class ActuatorModels:
 
     def pump(self, plan: EnergyPlan) -> PumpWork:
         """Cost of moving oil."""
-        if "pump" in self.described:
-            return pump_by_engine(self.vehicle, self.deepest_pa)
+        engine = self.vehicle.description.engine
+        if engine is not None:
+            return pump_by_engine(engine, self.deepest_pa)
         return pump_by_efficiency(self.vehicle, plan, self.deepest_pa)
 
     def pitch(self, plan: EnergyPlan) -> PitchDriveWork:
@@ -118,7 +119,7 @@ class ActuatorModels:
 
 
 def pump_by_efficiency(vehicle: Vehicle, plan: EnergyPlan, deepest_pa: float) -> PumpWork:
-    """Pressure work over an efficiency, and an idle power while the pump runs at its rated flow (eq-e9)."""
+    """Pressure work over an efficiency, and an idle power while the pump runs at its rated flow (eq-e6)."""
     engine = vehicle.description.actuators.buoyancy
     assert engine is not None
     assert engine.flow_ml_s is not None
@@ -132,12 +133,17 @@ def pump_by_efficiency(vehicle: Vehicle, plan: EnergyPlan, deepest_pa: float) ->
         deflating_j_m3=plan.valve_power_w / flow,
         deflating_m3_s=flow,
         origin="energy.pump_efficiency and energy.pump_idle_power_w",
+        starting_j=np.zeros_like(P),
     )
 
 
 def pitch_drive_by_machinery(vehicle: Vehicle) -> PitchDriveWork:
     """The drive that [drives.pitch] describes; infinite cost where its motor stalls."""
-    drive = PitchDrive.of(vehicle)
+    return _pitch_table(PitchDrive.of(vehicle))
+
+
+@lru_cache(maxsize=64)
+def _pitch_table(drive: PitchDrive) -> PitchDriveWork:
     points = [drive.point(float(theta), 1) for theta in PITCHES]
     slowness = [1.0 / point.speed if point.speed > 0.0 else np.inf for point in points]
     costs = [point.energy_per_metre for point in points]
@@ -150,7 +156,7 @@ def pitch_drive_by_machinery(vehicle: Vehicle) -> PitchDriveWork:
 
 
 def pitch_drive_by_efficiency(vehicle: Vehicle, plan: EnergyPlan) -> PitchDriveWork:
-    """Lifting over an efficiency, nothing back when lowering, and an idle power while the drive runs (eq-e10)."""
+    """Lifting over an efficiency, nothing back when lowering, and an idle power while the drive runs (eq-e7)."""
     d = vehicle.description
     drive = d.actuators.moving_mass
     assert drive is not None

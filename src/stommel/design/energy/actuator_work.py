@@ -37,14 +37,17 @@ class PumpWork:
     """Flow out of the bladder [m3/s]."""
     origin: str
     """Where the numbers come from."""
-    starting_j: float = 0.0
+    starting_j: Array
     """Electrical energy of a start of the pump, whatever the volume [J]."""
+    starting_s: float = 0.0
+    """Time of a start of the pump, whatever the volume [s]."""
 
     def inflation(self, volume_m3: Quantity, pressure_pa: Quantity) -> tuple[Array, Array]:
         """Energy [J] and time [s] of pumping a volume into the bladder at a pressure."""
         volume = np.maximum(volume_m3, 0.0)
         energy, flow = self._at(pressure_pa, self.inflating_j_m3), self._at(pressure_pa, self.inflating_m3_s)
-        return volume * energy + self.starting_j * (volume > 0.0), volume / flow
+        starting, moves = self._at(pressure_pa, self.starting_j), volume > 0.0
+        return volume * energy + starting * moves, volume / flow + self.starting_s * moves
 
     def deflation(self, volume_m3: Quantity, pressure_pa: Quantity) -> tuple[Array, Array]:
         """Energy [J] and time [s] of letting a volume out of the bladder at a pressure."""
@@ -103,10 +106,11 @@ class PitchDriveWork:
         side = np.where(travel < 0.0, -1.0, 1.0)
         first, last = np.asarray(side * np.tan(pitch_from)), np.asarray(side * np.tan(pitch_to))
         distance = np.abs(travel)
-        return (
-            distance * self._mean(first, last, self.forward_j_m, self._integral_j),
-            distance * self._mean(first, last, self.forward_s_m, self._integral_s),
-        )
+        with np.errstate(invalid="ignore"):  # infinite less infinite, where the motor stalls
+            return (
+                distance * self._mean(first, last, self.forward_j_m, self._integral_j),
+                distance * self._mean(first, last, self.forward_s_m, self._integral_s),
+            )
 
     def to_and_fro(self, distance_m: Quantity, pitch: Quantity) -> tuple[Array, Array]:
         """Energy [J] and time [s] of moving the mass by a distance and back at one pitch."""
@@ -131,9 +135,10 @@ class PitchDriveWork:
     def _mean(self, first: Array, last: Array, column: Array, integral: Array) -> Array:
         """Mean of a column between two slopes, by its integral."""
         span = last - first
+        rise = np.interp(last, self.slope, integral) - np.interp(first, self.slope, integral)
         flat = np.abs(span) < 1e-9
-        with np.errstate(invalid="ignore"):
-            rise = np.interp(last, self.slope, integral) - np.interp(first, self.slope, integral)
+        if not flat.any():
+            return np.asarray(rise / span)
         return np.where(flat, np.interp(first, self.slope, column), rise / np.where(flat, 1.0, span))
 
     def scaled(self, factor: float) -> "PitchDriveWork":

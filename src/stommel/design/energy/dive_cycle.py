@@ -172,7 +172,7 @@ def _corrections(model: EnergyModel, glides: Glides) -> tuple[Array, Array]:
 
 
 def fed(cycle: DiveCycle, model: EnergyModel) -> DiveCycle:
-    """Return the same movements with what the consumers of `model` take meanwhile (eq-e6)."""
+    """Return the same movements with what the consumers of `model` take meanwhile (eq-e9)."""
     under_water = cycle.dive_s + cycle.climb_s + cycle.turn_s
     times = {
         "always": under_water + cycle.surface_s,

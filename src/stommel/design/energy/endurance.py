@@ -225,7 +225,7 @@ def balance(model: EnergyModel, wanted: Wanted, dive: SteadyFlight, climb: Stead
 
 
 def spent(model: EnergyModel, wanted: Wanted, dive: SteadyFlight, climb: SteadyFlight, cycle: DiveCycle) -> Endurance:
-    """Hold the energy of a dive against the battery: t = E_usable / (E_dive / t_dive + P_self) (eq-e11).
+    """Hold the energy of a dive against the battery: t = E_usable / (E_dive / t_dive + P_self) (eq-e12).
 
     Raises
     ------

@@ -24,7 +24,7 @@ class StoredEnergy:
 
 
 def stored_energy(battery: Battery, temperature_c: float) -> StoredEnergy:
-    """Return the energy of a charged battery at a temperature [deg C] (eq-e7), (eq-e8).
+    """Return the energy of a charged battery at a temperature [deg C] (eq-e10), (eq-e11).
 
     Beyond the ends of the derating table its end values hold; without a table nothing is lost to temperature.
     """

@@ -113,7 +113,8 @@ def fill_column(
     place = column.place
     place[BOTTOM], place[TIME], place[LATITUDE], place[LONGITUDE] = bottom, time, latitude, longitude
     place[GRAVITY] = gravity(latitude)
-    _spread(grid, table, column)
+    # arrays, not the grid: as one tuple, all of its arrays would be counted in and out at every depth
+    _spread(grid.depths, grid.profile_depths, grid.profile_rho, table, column)
     return status
 
 
@@ -124,7 +125,7 @@ def gravity(latitude: float) -> float:
     return 9.780327 * (1.0 + (5.2792e-3 + 2.32e-5 * square) * square)
 
 
-@inlined
+@compiled
 def _time_slot(grid: OceanGrid, time: float) -> tuple[int, int, int, float]:
     """Status, the two slots around a time, and the share of the second."""
     last = grid.times.size - 1
@@ -158,7 +159,7 @@ def _wet_weights(grid: OceanGrid, at: CellPoint) -> tuple[tuple[float, float, fl
     return weights, wet, bottom / wet if wet > 0.0 else 0.0
 
 
-@inlined
+@compiled
 def _cell_levels(
     grid: OceanGrid,
     at: CellPoint,
@@ -175,33 +176,33 @@ def _cell_levels(
     for k in range(grid.depths.size):
         total = 0.0
         for q in range(QUANTITIES):
-            out[q, k] = 0.0
+            out[k, q] = 0.0
         for corner in range(4):
             if k < wet[corner]:
                 w = weights[corner]
                 row, column = j + corner // 2, i + corner % 2
                 total += w
                 a, b = water[first, row, column], water[second, row, column]
-                out[TEMPERATURE, k] += w * (a[T, k] + share * (b[T, k] - a[T, k]))
-                out[SALINITY, k] += w * (a[S_A, k] + share * (b[S_A, k] - a[S_A, k]))
-                out[CT_ROW, k] += w * (a[CT, k] + share * (b[CT, k] - a[CT, k]))
-                out[NORTH, k] += w * (a[U_X, k] + share * (b[U_X, k] - a[U_X, k]))
-                out[EAST, k] += w * (a[U_Y, k] + share * (b[U_Y, k] - a[U_Y, k]))
-                out[NORTH_RATE, k] += w * (b[U_X, k] - a[U_X, k]) / span
-                out[EAST_RATE, k] += w * (b[U_Y, k] - a[U_Y, k]) / span
+                out[k, TEMPERATURE] += w * (a[T, k] + share * (b[T, k] - a[T, k]))
+                out[k, SALINITY] += w * (a[S_A, k] + share * (b[S_A, k] - a[S_A, k]))
+                out[k, CT_ROW] += w * (a[CT, k] + share * (b[CT, k] - a[CT, k]))
+                out[k, NORTH] += w * (a[U_X, k] + share * (b[U_X, k] - a[U_X, k]))
+                out[k, EAST] += w * (a[U_Y, k] + share * (b[U_Y, k] - a[U_Y, k]))
+                out[k, NORTH_RATE] += w * (b[U_X, k] - a[U_X, k]) / span
+                out[k, EAST_RATE] += w * (b[U_Y, k] - a[U_Y, k]) / span
         if total > 0.0:
             for q in range(TEMPERATURE, NORTH_ACCELERATION):
-                out[q, k] /= total
+                out[k, q] /= total
         elif k > 0:
             for q in range(TEMPERATURE, NORTH_ACCELERATION):
-                out[q, k] = out[q, k - 1]
+                out[k, q] = out[k - 1, q]
     _accelerate(grid, at, point, slot, min(wet[0], wet[1], wet[2], wet[3]), out)
     _turn(point, out, NORTH)
     _turn(point, out, NORTH_RATE)
     _turn(point, out, NORTH_ACCELERATION)
 
 
-@inlined
+@compiled
 def _accelerate(
     grid: OceanGrid, at: CellPoint, point: PlanePoint, slot: tuple[int, int, float, float], wet: int, out: np.ndarray
 ) -> None:
@@ -212,7 +213,7 @@ def _accelerate(
     determinant = x_u * y_v - x_v * y_u
     for k in range(grid.depths.size):
         for axis in range(2):
-            rate = out[NORTH_RATE + axis, k]
+            rate = out[k, NORTH_RATE + axis]
             if k < wet:
                 c00 = _blend(grid, first, second, share, j, i, U_X + axis, k)
                 c01 = _blend(grid, first, second, share, j, i + 1, U_X + axis, k)
@@ -222,8 +223,8 @@ def _accelerate(
                 a_v = (1.0 - u) * (c10 - c00) + u * (c11 - c01)
                 a_x = (a_u * y_v - a_v * y_u) / determinant
                 a_y = (a_v * x_u - a_u * x_v) / determinant
-                rate += point.scale * (out[NORTH, k] * a_x + out[EAST, k] * a_y)
-            out[NORTH_ACCELERATION + axis, k] = rate
+                rate += point.scale * (out[k, NORTH] * a_x + out[k, EAST] * a_y)
+            out[k, NORTH_ACCELERATION + axis] = rate
 
 
 @inlined
@@ -235,51 +236,51 @@ def _blend(grid: OceanGrid, first: int, second: int, share: float, j: int, i: in
 @inlined
 def _turn(point: PlanePoint, out: np.ndarray, row: int) -> None:
     """Turn the rows (x, y) at `row` to (north, east)."""
-    for k in range(out.shape[1]):
-        x, y = out[row, k], out[row + 1, k]
-        out[row, k] = x * point.north_x + y * point.north_y
-        out[row + 1, k] = x * point.north_y - y * point.north_x
+    for k in range(out.shape[0]):
+        x, y = out[k, row], out[k, row + 1]
+        out[k, row] = x * point.north_x + y * point.north_y
+        out[k, row + 1] = x * point.north_y - y * point.north_x
 
 
-@inlined
+@compiled
 def _single_levels(grid: OceanGrid, first: int, second: int, share: float, span: float, out: np.ndarray) -> None:
     """Levels of an ocean that is the same everywhere; its vectors are (east, north)."""
     for k in range(grid.depths.size):
-        out[TEMPERATURE, k] = _blend(grid, first, second, share, 0, 0, T, k)
-        out[SALINITY, k] = _blend(grid, first, second, share, 0, 0, S_A, k)
-        out[CT_ROW, k] = _blend(grid, first, second, share, 0, 0, CT, k)
-        out[EAST, k] = _blend(grid, first, second, share, 0, 0, U_X, k)
-        out[NORTH, k] = _blend(grid, first, second, share, 0, 0, U_Y, k)
-        out[EAST_RATE, k] = (grid.water[second, 0, 0, U_X, k] - grid.water[first, 0, 0, U_X, k]) / span
-        out[NORTH_RATE, k] = (grid.water[second, 0, 0, U_Y, k] - grid.water[first, 0, 0, U_Y, k]) / span
-        out[NORTH_ACCELERATION, k] = out[NORTH_RATE, k]
-        out[EAST_ACCELERATION, k] = out[EAST_RATE, k]
+        out[k, TEMPERATURE] = _blend(grid, first, second, share, 0, 0, T, k)
+        out[k, SALINITY] = _blend(grid, first, second, share, 0, 0, S_A, k)
+        out[k, CT_ROW] = _blend(grid, first, second, share, 0, 0, CT, k)
+        out[k, EAST] = _blend(grid, first, second, share, 0, 0, U_X, k)
+        out[k, NORTH] = _blend(grid, first, second, share, 0, 0, U_Y, k)
+        out[k, EAST_RATE] = (grid.water[second, 0, 0, U_X, k] - grid.water[first, 0, 0, U_X, k]) / span
+        out[k, NORTH_RATE] = (grid.water[second, 0, 0, U_Y, k] - grid.water[first, 0, 0, U_Y, k]) / span
+        out[k, NORTH_ACCELERATION] = out[k, NORTH_RATE]
+        out[k, EAST_ACCELERATION] = out[k, EAST_RATE]
 
 
-@inlined
+@compiled
 def _mean_levels(grid: OceanGrid, out: np.ndarray) -> None:
     for k in range(grid.depths.size):
-        out[TEMPERATURE, k] = grid.mean_water[T, k]
-        out[SALINITY, k] = grid.mean_water[S_A, k]
-        out[CT_ROW, k] = grid.mean_water[CT, k]
-        out[EAST, k] = grid.mean_water[U_X, k]
-        out[NORTH, k] = grid.mean_water[U_Y, k]
+        out[k, TEMPERATURE] = grid.mean_water[T, k]
+        out[k, SALINITY] = grid.mean_water[S_A, k]
+        out[k, CT_ROW] = grid.mean_water[CT, k]
+        out[k, EAST] = grid.mean_water[U_X, k]
+        out[k, NORTH] = grid.mean_water[U_Y, k]
         for q in range(NORTH_RATE, QUANTITIES):
-            out[q, k] = 0.0
+            out[k, q] = 0.0
 
 
 @inlined
 def _add_current(out: np.ndarray, north: float, east: float, north_rate: float, east_rate: float) -> None:
-    for k in range(out.shape[1]):
-        out[NORTH, k] += north
-        out[EAST, k] += east
-        out[NORTH_RATE, k] += north_rate
-        out[EAST_RATE, k] += east_rate
-        out[NORTH_ACCELERATION, k] += north_rate
-        out[EAST_ACCELERATION, k] += east_rate
+    for k in range(out.shape[0]):
+        out[k, NORTH] += north
+        out[k, EAST] += east
+        out[k, NORTH_RATE] += north_rate
+        out[k, EAST_RATE] += east_rate
+        out[k, NORTH_ACCELERATION] += north_rate
+        out[k, EAST_ACCELERATION] += east_rate
 
 
-@inlined
+@compiled
 def _add_single_tide(grid: OceanGrid, time: float, out: np.ndarray) -> None:
     for n in range(grid.tide_speed.size):
         omega = grid.tide_speed[n]
@@ -294,7 +295,7 @@ def _add_single_tide(grid: OceanGrid, time: float, out: np.ndarray) -> None:
         )
 
 
-@inlined
+@compiled
 def _add_tide(
     grid: OceanGrid,
     at: CellPoint,
@@ -327,43 +328,41 @@ def _add_tide(
         )
 
 
-@inlined
-def _spread(grid: OceanGrid, table: DensityTable, column: Column) -> None:
+@compiled
+def _spread(
+    depths: np.ndarray,
+    profile_depths: np.ndarray,
+    profile_rho: np.ndarray,
+    table: DensityTable,
+    column: Column,
+) -> None:
     """Interpolate the levels to the column's depths and integrate density to pressure from the surface down."""
-    values, levels, dz = column.values, column.levels, column.dz
-    depths = grid.depths
+    values, levels, dz, g = column.values, column.levels, column.dz, column.place[GRAVITY]
     last, k = depths.size - 1, 0
-    g = column.place[GRAVITY]
+    above, pressure = 0.0, 0.0
     for n in range(values.shape[0]):
         z = n * dz
         while k < last - 1 and depths[k + 1] < z:
             k += 1
-        upper = min(k + 1, last)
-        share = min(max((z - depths[k]) / (depths[upper] - depths[k]), 0.0), 1.0) if last > 0 else 0.0
+        lower = min(k + 1, last)
+        share = min(max((z - depths[k]) / (depths[lower] - depths[k]), 0.0), 1.0) if last > 0 else 0.0
         for q in range(TEMPERATURE, QUANTITIES):
-            values[n, q] = levels[q, k] + share * (levels[q, upper] - levels[q, k])
-        if n == 0:
-            values[0, P] = 0.0
-            values[0, RHO] = _density_at(grid, table, values, 0, 0.0)
+            values[n, q] = levels[k, q] + share * (levels[lower, q] - levels[k, q])
+        weight = g * (1.0 + GRAVITY_PER_METRE * (z - 0.5 * dz)) * dz if n > 0 else 0.0
+        # with the density above, the pressure is some Pa off, which moves the density by about 1e-6 kg/m3
+        pressure += weight * above
+        if profile_depths.size > 0:
+            rho = _profile_density(profile_depths, profile_rho, z)
         else:
-            above, weight = values[n - 1, RHO], g * (1.0 + GRAVITY_PER_METRE * (z - 0.5 * dz)) * dz
-            # with the density above, the pressure is some Pa off, which moves the density by about 1e-6 kg/m3
-            values[n, P] = values[n - 1, P] + weight * above
-            values[n, RHO] = _density_at(grid, table, values, n, z)
-            values[n, P] = values[n - 1, P] + 0.5 * weight * (above + values[n, RHO])
+            rho = density(table, values[n, SALINITY], values[n, CT_ROW], pressure / PASCAL_PER_DECIBAR)
+        pressure += 0.5 * weight * (rho - above)
+        above = rho
+        values[n, P], values[n, RHO] = pressure, rho
 
 
 @inlined
-def _density_at(grid: OceanGrid, table: DensityTable, values: np.ndarray, n: int, z: float) -> float:
-    if grid.profile_depths.size > 0:
-        return _profile_density(grid, z)
-    return density(table, values[n, SALINITY], values[n, CT_ROW], values[n, P] / PASCAL_PER_DECIBAR)
-
-
-@inlined
-def _profile_density(grid: OceanGrid, z: float) -> float:
+def _profile_density(depths: np.ndarray, rho: np.ndarray, z: float) -> float:
     """Density that is given directly, held at the ends of its depths."""
-    depths, rho = grid.profile_depths, grid.profile_rho
     if z <= depths[0] or depths.size == 1:
         return rho[0]
     k = min(np.searchsorted(depths, z), depths.size - 1)

@@ -96,7 +96,7 @@ class Column(NamedTuple):
     Conservative Temperature [deg C], current to north and east [m/s], its rate of change at a fixed point dU/dt and
     the acceleration of the water DU/Dt, each to north and east [m/s2]."""
     levels: NDArray[np.float64]
-    """(quantity, level): room for one interpolated column at the grid's own levels."""
+    """(level, quantity): room for one interpolated column at the grid's own levels."""
     place: NDArray[np.float64]
     """Depth of the bottom [m], time [s], latitude and longitude [rad], gravity at the surface [m/s2]."""
     dz: float
@@ -106,7 +106,7 @@ class Column(NamedTuple):
 def new_column(grid: OceanGrid, depth: float, dz: float = 2.0) -> Column:
     """Return an empty column for `fill_column`, from the surface to at least `depth` [m] in steps of `dz` [m]."""
     count = max(int(np.ceil(depth / dz - 1e-9)), 1) + 1
-    return Column(np.zeros((count, QUANTITIES)), np.zeros((QUANTITIES, len(grid.depths))), np.zeros(5), float(dz))
+    return Column(np.zeros((count, QUANTITIES)), np.zeros((len(grid.depths), QUANTITIES)), np.zeros(5), float(dz))
 
 
 def new_cell() -> NDArray[np.int64]:

@@ -33,7 +33,7 @@ class DensityTable(NamedTuple):
     """
 
     coefficients: NDArray[np.float64]
-    """Of the powers of the scaled salinity, temperature and pressure, in this order [kg/m3]."""
+    """Of the powers of the scaled pressure, salinity and temperature, in this order [kg/m3]."""
     S_A_middle: float
     """Middle of the range of Absolute Salinity [g/kg]."""
     S_A_half: float
@@ -70,14 +70,15 @@ def density(table: DensityTable, S_A: float, CT: float, p: float) -> float:
     q = min(max((p - table.p_middle) / table.p_half, -1.0), 1.0)
     c = table.coefficients
     rho = 0.0
-    for i in range(c.shape[0] - 1, -1, -1):
-        row = 0.0
-        for j in range(c.shape[1] - 1, -1, -1):
-            cell = 0.0
-            for k in range(c.shape[2] - 1, -1, -1):
-                cell = cell * q + c[i, j, k]
-            row = row * t + cell
-        rho = rho * s + row
+    # pressure last: the next depth of a column can begin before its pressure, which waits for this one, is known
+    for k in range(c.shape[0] - 1, -1, -1):
+        layer = 0.0
+        for i in range(c.shape[1] - 1, -1, -1):
+            row = 0.0
+            for j in range(c.shape[2] - 1, -1, -1):
+                row = row * t + c[k, i, j]
+            layer = layer * s + row
+        rho = rho * q + layer
     return rho
 
 
@@ -128,7 +129,8 @@ def density_table(S_A: Range, CT: Range, p: Range, tolerance: float = TOLERANCE)
                 f"the least is {table.largest_error:.2g} kg/m3"
             )
         table = min(trials, key=lambda trial: trial.largest_error)
-        degrees = [n - 1 for n in table.coefficients.shape]
+        pressure, *others = table.coefficients.shape
+        degrees = [n - 1 for n in (*others, pressure)]
     return table
 
 
@@ -152,11 +154,10 @@ def _fitted(ranges: Sequence[Range], degrees: Sequence[int]) -> DensityTable:
     for axis, x in enumerate(scaled):
         inverse = np.linalg.inv(np.vander(x, increasing=True))
         coefficients = np.moveaxis(np.tensordot(inverse, coefficients, axes=(1, axis)), 0, axis)
-    middles_and_halves = [number for low, high in ranges for number in (0.5 * (low + high), 0.5 * (high - low))]
-    table = DensityTable(np.ascontiguousarray(coefficients), *middles_and_halves, 0.0)
     check = [np.linspace(-1.0, 1.0, n) for n in _CHECK_POINTS]
-    error = np.abs(_polynomial(table.coefficients, check) - _gsw_density(ranges, check)).max()
-    return table._replace(largest_error=float(error))
+    error = float(np.abs(_polynomial(coefficients, check) - _gsw_density(ranges, check)).max())
+    middles_and_halves = [number for low, high in ranges for number in (0.5 * (low + high), 0.5 * (high - low))]
+    return DensityTable(np.ascontiguousarray(np.moveaxis(coefficients, 2, 0)), *middles_and_halves, error)
 
 
 def _polynomial(coefficients: NDArray[np.float64], scaled: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:

@@ -5,6 +5,7 @@ from math import pi, sqrt
 
 from stommel.design.bench.engine_log import EngineLog
 from stommel.design.bench.failures import BenchRequestError
+from stommel.design.engine.reduction import engine_parameters
 from stommel.design.engine.steady_state import EngineParameters
 from stommel.vehicle import Vehicle
 
@@ -15,44 +16,16 @@ def bench_engine(vehicle: Vehicle) -> EngineParameters:
     Raises
     ------
     BenchRequestError
-        The vehicle has no engine, or one that is not a motor, a gearbox, a pump and a reservoir.
+        The vehicle has no engine, or its bladder is stiff.
+    CircuitError
+        The circuit cannot be reduced to steady pumping.
     """
     engine = vehicle.description.engine
     if engine is None:
         raise BenchRequestError(f"{vehicle.name}: its file has no [engine]; the bench tests need one")
-    parts = (engine.motors, engine.gearboxes, engine.pumps, engine.reservoirs, engine.bladders)
-    if any(len(kind) != 1 for kind in parts):
-        raise BenchRequestError(
-            f"{vehicle.name}: the bench tests know an engine of one motor, gearbox, pump, reservoir and bladder"
-        )
-    (motor,), (gearbox,), (pump,), (reservoir,) = engine.motors, engine.gearboxes, engine.pumps, engine.reservoirs
-    passages = (*engine.lines, *engine.check_valves)
-    return replace(
-        EngineParameters(
-            torque_constant_n_m_a=motor.torque_constant_mn_m_a / 1e3,
-            resistance_ohm=motor.resistance_ohm,
-            no_load_current_a=motor.no_load_current_a,
-            gear_ratio=gearbox.ratio,
-            gear_efficiency=gearbox.efficiency,
-            displacement_m3_rev=pump.displacement_ml_r / 1e6,
-            leakage_m3_s_pa=pump.leakage_ml_s_mpa / 1e12,
-            pump_friction_n_m=pump.friction_n_m,
-            pump_friction_share=pump.friction_share,
-            pump_damping_n_m_s=pump.damping_n_m_s,
-            piston_area_m2=reservoir.area_m2,
-            cylinder_coulomb_n=reservoir.coulomb_n,
-            cylinder_viscous_n_s_m=reservoir.viscous_n_s_m,
-            line_resistance_pa_s_m3=sum(part.resistance_mpa_s_ml for part in passages) * 1e12,
-            line_loss_pa_s2_m6=sum(line.loss_mpa_s2_ml2 for line in engine.lines) * 1e18,
-            cracking_pressure_pa=sum(valve.cracking_pressure_mpa for valve in engine.check_valves) * 1e6,
-            cylinder_stribeck_n=reservoir.stribeck_n,
-            stribeck_velocity_m_s=reservoir.stribeck_mm_s / 1e3,
-            supply_voltage_v=motor.supply_voltage_v,
-            driver_efficiency=motor.driver_efficiency,
-            current_limit_a=motor.current_limit_a,
-        ),
-        reservoir_pressure_pa=0.0,
-    )
+    if engine.bladders[0].stiffness_mpa_ml > 0.0:
+        raise BenchRequestError(f"{vehicle.name}: the bench tests know a limp bladder only, stiffness_mpa_ml = 0")
+    return replace(engine_parameters(engine), reservoir_pressure_pa=0.0)
 
 
 def piston_area_of(log: EngineLog, engine: EngineParameters) -> float:

@@ -23,6 +23,10 @@ PAPER_SPEEDS_RPM = (3500.0, 5250.0, 7000.0, 8750.0)
 """Section 5.1.2 of the paper."""
 
 
+MOST_ROWS = 100_000
+"""Of one run."""
+
+
 @dataclass(frozen=True)
 class SensorNoise:
     """Standard deviations of independent normal errors: assumptions about a careful bench, none is published."""
@@ -38,7 +42,15 @@ class SensorNoise:
     """From run to run, relative."""
 
     def times(self, factor: float) -> "SensorNoise":
-        """All errors larger by a factor."""
+        """All errors larger by a factor.
+
+        Raises
+        ------
+        BenchRequestError
+            The factor is negative or not finite.
+        """
+        if not (isfinite(factor) and factor >= 0.0):
+            raise BenchRequestError(f"noise = {factor:g}: must be at least 0, in multiples of the usual noise")
         return SensorNoise(**{name: value * factor for name, value in asdict(self).items()})
 
 
@@ -86,16 +98,28 @@ def generate_log(
     Raises
     ------
     BenchRequestError
-        The engine pumps nothing at a point of the plan, or the seed is negative.
+        The engine pumps nothing at a point of the plan, or a number is impossible.
     """
     plan, noise = plan or BenchPlan(), noise or SensorNoise()
-    if seed < 0:
-        raise BenchRequestError(f"seed = {seed}: must be 0 or more")
+    _check_request(seed, plan, noise)
     points = [_as_supplied(engine, P, omega) for P in plan.pressures for omega in plan.motor_speeds]
     random = np.random.default_rng(seed)
     runs = tuple(_run(f"{k:02d}", point, plan, noise, random) for k, point in enumerate(points, start=1))
     true = {name: value for name, value in asdict(engine).items() if isfinite(value)}
     return EngineLog(MARKER, runs, float(np.sqrt(4 / pi * engine.piston_area_m2)), true)
+
+
+def _check_request(seed: int, plan: BenchPlan, noise: SensorNoise) -> None:
+    shortest = plan.longest / MOST_ROWS
+    for words, value, possible, allowed in (
+        ("seed", seed, seed >= 0, "at least 0"),
+        ("pressure", min(plan.pressures) / 1e6, min(plan.pressures) >= 0.0, "at least 0 MPa"),
+        ("motor speed", min(plan.motor_speeds) * 60 / (2 * pi), min(plan.motor_speeds) > 0.0, "greater than 0 r/min"),
+        ("period", plan.period, plan.period >= shortest, f"at least {shortest:g} s"),
+        ("least noise", min(asdict(noise).values()), min(asdict(noise).values()) >= 0.0, "at least 0"),
+    ):
+        if not (possible and isfinite(value)):
+            raise BenchRequestError(f"{words} = {value:g}: must be {allowed}")
 
 
 def _as_supplied(engine: EngineParameters, P: float, omega: float) -> OperatingPoint:

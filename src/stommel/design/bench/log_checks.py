@@ -15,6 +15,8 @@ Channels = Mapping[str, RawChannel]
 
 TURNING_SHARE = 0.05
 """The motor turns while its speed is above this share of the greatest of the run."""
+SUDDEN = 8.0
+"""A step of this many usual steps is looked at."""
 ONE_WAY_SHARE = 0.9
 """Share of the piston's whole travel that must lie between its first and its last reading."""
 
@@ -156,25 +158,38 @@ def _not_stuck(channels: Channels, rows: int) -> None:
 
 
 def _one_unit(channel: RawChannel) -> None:
-    """Refuse a column whose readings change in one step by the ratio of two units, and stay there."""
-    values = channel.values
+    """Refuse a column whose readings change in one step by the ratio of two units.
+
+    What is steady in a run is compared by medians over a few rows, which noise about zero does not fool; what moves, by
+    neighbouring rows.
+    """
+    values, quantity = channel.values, QUANTITIES[channel.quantity]
     if channel.quantity == "time" or len(values) < 4:
         return
     step = np.abs(np.diff(values))
     usual = float(np.median(step))
-    for k in np.flatnonzero(step > 50.0 * usual + 1e-12) + 1:
-        before, after = (float(np.median(part)) for part in (values[max(0, k - 5) : k], values[k : k + 5]))
-        if abs(before) < 20.0 * usual and abs(after) < 20.0 * usual:
+    width = 5 if quantity.steady else 1
+    for k in np.flatnonzero(step > SUDDEN * usual + 1e-12) + 1:
+        before, after = (float(np.median(part)) for part in (values[max(0, k - width) : k], values[k : k + width]))
+        if max(abs(before), abs(after)) < 2.0 * SUDDEN * usual:
             continue
-        quantity = QUANTITIES[channel.quantity]
-        for unit, ratio in unit_ratios(quantity, channel.channel.unit):
-            for factor in (ratio, 1.0 / ratio):
-                if not 0.5 < factor < 2.0 and abs(after - factor * before) < 0.05 * abs(factor * before):
-                    raise channel.refuse(
-                        int(k),
-                        f"mixed units: {values[k]:g} after {values[k - 1]:g}, the ratio of {unit} to "
-                        f"{channel.channel.unit}, in a column that its map says is in {channel.channel.unit}",
-                    )
+        unit = _unit_of_jump(channel, before, after, 0.0 if quantity.steady else usual)
+        if unit:
+            raise channel.refuse(
+                int(k),
+                f"mixed units: {values[k]:g} after {values[k - 1]:g}, the ratio of {unit} to {channel.channel.unit}, "
+                f"in a column that its map says is in {channel.channel.unit}",
+            )
+
+
+def _unit_of_jump(channel: RawChannel, before: float, after: float, motion: float) -> str:
+    """Unit whose ratio to the column's explains a jump, or nothing; `motion` is what the quantity moves in a row."""
+    for unit, ratio in unit_ratios(QUANTITIES[channel.quantity], channel.channel.unit):
+        for factor in (ratio, 1.0 / ratio):
+            off = abs(after - factor * before)
+            if not 0.5 < factor < 2.0 and off < 0.05 * abs(factor * before) + motion * max(factor, 1.0):
+                return unit
+    return ""
 
 
 def _one_way(travel: RawChannel) -> None:

@@ -34,6 +34,7 @@ from stommel.analysis import (
     trim_table,
     turn,
 )
+from stommel.design.hull.study import HullStudy, hull_study
 from stommel.design.published import PublishedRow, published_tables
 from stommel.design.specification import SpecificationRow, specification_check
 from stommel.errors import StommelError
@@ -90,6 +91,8 @@ class DesignStudy:
     loci: tuple[RootLocus, ...]
     turns: tuple[SteadyFlight, ...]
     """Steady turns at growing turn rate, steered by what the vehicle has."""
+    hull: HullStudy | None
+    """Pressure hull in every material."""
     numbers: tuple[tuple[str, object, Provenance], ...]
     """Every number of the vehicle file with its origin."""
     notes: tuple[str, ...]
@@ -158,6 +161,7 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
         )
     )
     turns = ask("turns", lambda: _turns(vehicle, physics, speed, pitch)) or ()
+    hull = ask("pressure hull", lambda: hull_study(vehicle))
     return DesignStudy(
         vehicle=vehicle,
         physics=physics,
@@ -172,6 +176,7 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
         authority=authority(linear),
         loci=loci,
         turns=turns,
+        hull=hull,
         numbers=tuple(stated_numbers(vehicle)),
         notes=vehicle.description.notes,
         unanswered=tuple(unanswered),

@@ -3,6 +3,7 @@
 import re
 from typing import TYPE_CHECKING
 
+from stommel.design.hull.plot import hull_figure
 from stommel.design.plots import (
     authority_figure,
     envelope_figure,
@@ -51,6 +52,8 @@ def figures(study: DesignStudy) -> dict[str, "Markup"]:
         found["envelope"] = inline_svg(envelope_figure(study), "envelope", "Reachable speeds against pitch")
     if study.turns:
         found["turns"] = inline_svg(turns_figure(study), "turns", "Turning flight against turn rate")
+    if study.hull is not None:
+        found["hull"] = inline_svg(hull_figure(study.hull), "hull", "Pressure against wall, and mass by material")
     for k, locus in enumerate(study.loci):
         drawn = root_locus_figure(locus, modes=study.modes)
         found[f"locus-{k}"] = inline_svg(drawn, f"locus{k}", f"Root locus over {locus.over}")

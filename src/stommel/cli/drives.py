@@ -2,12 +2,13 @@
 
 from math import degrees
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from stommel.cli.options import JsonOption, VehicleArgument, load
-from stommel.cli.output import number, show_json, show_table, show_values
+from stommel.cli.output import WIDTH, number, show_json, show_table, show_values
 
 if TYPE_CHECKING:
     from stommel.design.drives import DriveStudy, PitchPoint, PitchStudy, RudderStudy
@@ -53,7 +54,7 @@ def drives(
     if study.rudder is not None:
         _show_rudder(study.vehicle.name, study.rudder)
     for warning in study.warnings:
-        typer.echo(f"warning: {warning}")
+        typer.echo(fill(f"warning: {warning}", WIDTH, subsequent_indent="  "))
     for path in written:
         typer.echo(f"wrote {path}")
 

@@ -29,6 +29,8 @@ class Part(Table):
     """Whether it belongs to the moving mass."""
     ballast: bool = False
     """Whether it belongs to the ballast system; its volume is that of neutral ballast."""
+    trim_weight: bool = False
+    """Whether it is there for trim alone, so that some or all of it may be taken out."""
     box_mm: tuple[Positive, Positive, Positive] | None = None
     """Length, width and height of a homogeneous box."""
     length_mm: Positive | None = None
@@ -59,6 +61,8 @@ class Part(Table):
     def _is_one_thing(self) -> Self:
         if self.moving and self.ballast:
             raise ValueError(f"{self.name!r}: is either moving or ballast, not both")
+        if self.trim_weight and (self.moving or self.ballast or self.wet):
+            raise ValueError(f"{self.name!r}: a trim weight is dry and neither moving nor ballast")
         if (self.length_mm is None) != (self.diameter_mm is None):
             raise ValueError(f"{self.name!r}: length_mm and diameter_mm go together")
         if self.box_mm is not None and self.length_mm is not None:

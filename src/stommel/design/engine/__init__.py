@@ -23,7 +23,6 @@ _WHERE = {
     "load_engine": "files",
     "simulate": "simulation",
     "stall_pressure": "stall",
-    "steady_state": "steady_state",
 }
 
 __all__ = [
@@ -43,7 +42,6 @@ __all__ = [
     "load_engine",
     "simulate",
     "stall_pressure",
-    "steady_state",
 ]
 
 if TYPE_CHECKING:
@@ -53,7 +51,7 @@ if TYPE_CHECKING:
     from stommel.design.engine.results import EngineRun, Outcome, PhaseResult
     from stommel.design.engine.simulation import EngineRequestError, simulate
     from stommel.design.engine.stall import stall_pressure
-    from stommel.design.engine.steady_state import EngineParameters, SteadyState, steady_state
+    from stommel.design.engine.steady_state import EngineParameters, SteadyState
 
 
 def __getattr__(name: str) -> Any:

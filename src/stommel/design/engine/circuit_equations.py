@@ -35,8 +35,9 @@ from stommel.dynamics.compilation import compiled, inlined
 P_ATM = 101325.0
 """Gauge pressures count from here [Pa]."""
 
-PRESSURE_SLACK, FORCE_SLACK = 1.0, 0.01
-"""A valve or a resting piston switches this far beyond its condition [Pa, N]: rounding must not make it chatter."""
+PRESSURE_SLACK, FORCE_SLACK = 50.0, 0.01
+"""A valve or a resting piston switches this far beyond its condition [Pa, N], several times the integrator's tolerance,
+so that its errors do not make them chatter."""
 
 FIRST_EVENT = 3
 """Events 0 to 2 are the controller's and the motor's; those of passages, pistons and nodes follow."""

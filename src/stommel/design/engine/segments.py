@@ -6,10 +6,11 @@ looked at together, and the first fall through zero is located on the integrator
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import LSODA
+from scipy.integrate import LSODA, Radau
 from scipy.optimize import brentq
 
 from stommel.design.engine.circuit_equations import FIRST_PRESSURE, evaluate, observe, piston_push
@@ -84,15 +85,18 @@ class Stepper:
             raise SimulationError(
                 f"engine: more than {_MOST_SEGMENTS} events up to {self.t:.3f} s; the circuit chatters"
             )
-        solver = LSODA(
-            self._rates, self.t, self.y, until, rtol=RTOL, atol=self._atol, max_step=LONGEST_STEP_S
-        )  # fmt: skip
+        solver = self._solver(LSODA, until)
         times, states, event = [self.t], [self.y], None
         before = self._event_values(self.y)
         while solver.status == "running" and event is None:
             failure = solver.step()
-            if failure is not None:
-                raise SimulationError(f"engine: the integrator failed at {solver.t:.6g} s: {failure}")
+            if failure is not None or not np.isfinite(solver.y).all():
+                # LSODA can lose its step where nothing changes any more; Radau's takes over from the last good state
+                if isinstance(solver, Radau):
+                    raise SimulationError(f"engine: the integrator failed at {times[-1]:.6g} s: {failure}")
+                self.t, self.y = times[-1], states[-1]
+                solver = self._solver(Radau, until)
+                continue
             t, y = float(solver.t), solver.y.copy()
             after = self._event_values(y)
             fallen = np.flatnonzero((before >= 0.0) & (after < 0.0))
@@ -107,7 +111,12 @@ class Stepper:
         self.t, self.y = times[-1], rows[-1].copy()
         return event
 
-    def _first(self, fallen: NDArray[np.intp], solver: LSODA) -> tuple[float, int]:
+    def _solver(self, method: type[LSODA | Radau], until: float) -> LSODA | Radau:
+        """Integrator from the present time and state."""
+        tolerance: Any = self._atol  # the stubs of Radau know only one number
+        return method(self._rates, self.t, self.y, until, rtol=RTOL, atol=tolerance, max_step=LONGEST_STEP_S)
+
+    def _first(self, fallen: NDArray[np.intp], solver: LSODA | Radau) -> tuple[float, int]:
         """Instant and number of the first of the events that happened within the last step."""
         course, begin, end = solver.dense_output(), float(solver.t_old or 0.0), float(solver.t)
 

@@ -1,0 +1,62 @@
+"""Oceans in closed form, by name: for tests, for first missions, and for sea areas without a file."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from stommel.ocean.east_china_sea import EastChinaSea
+from stommel.ocean.errors import UnknownOceanError
+from stommel.ocean.everywhere import (
+    Pool,
+    Shear,
+    SouthChinaSea,
+    Still,
+    Tide,
+    TwoLayer,
+    Uniform,
+)
+from stommel.ocean.grid import OceanGrid
+from stommel.ocean.gyre import Gyre
+from stommel.vehicle.messages import sentence
+
+ANALYTIC: dict[str, type[Any]] = {
+    "still": Still,
+    "uniform": Uniform,
+    "shear": Shear,
+    "tide": Tide,
+    "gyre": Gyre,
+    "two_layer": TwoLayer,
+    "south_china_sea": SouthChinaSea,
+    "east_china_sea": EastChinaSea,
+    "pool": Pool,
+}
+"""Analytic oceans by name; the fields of each are its parameters, with the unit at the end of the name."""
+
+
+def build_analytic(name: str, parameters: Mapping[str, Any]) -> tuple[OceanGrid, dict[str, str]]:
+    """Grid and notes of an analytic ocean.
+
+    Raises
+    ------
+    UnknownOceanError
+        The name or a parameter is unknown, or a value is not allowed.
+    """
+    if name not in ANALYTIC:
+        raise UnknownOceanError(f"ocean {name!r}: unknown analytic ocean; there are: {', '.join(ANALYTIC)}")
+    kind = ANALYTIC[name]
+    try:
+        ocean = kind(**parameters)
+    except ValidationError as error:
+        raise UnknownOceanError(_first(name, kind, error)) from None
+    grid: OceanGrid = ocean.grid()
+    return grid, dict(ocean.notes())
+
+
+def _first(name: str, kind: type[BaseModel], error: ValidationError) -> str:
+    details = sorted(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
+    detail = details[0]
+    if detail["type"] == "extra_forbidden":
+        known = ", ".join(kind.model_fields)
+        return f"ocean {name!r}: unknown parameter {detail['loc'][0]}; parameters: {known}"
+    return f"ocean {name!r}: {sentence(detail, kind)}"

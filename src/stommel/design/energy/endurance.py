@@ -18,6 +18,8 @@ from stommel.vehicle import PAPER, Physics, Vehicle
 
 DAY = 86400.0
 SELF_DISCHARGE = "self-discharge"
+COLDEST_C, WARMEST_C = -3.0, 45.0
+"""Temperatures of sea water, as a vehicle file allows them [deg C]."""
 
 
 class DepthError(StommelError):
@@ -149,6 +151,8 @@ def endurance(
     PumpStallError, DriveStallError
         An actuator is too weak for this dive.
     """
+    if temperature_c is not None and not COLDEST_C <= temperature_c <= WARMEST_C:
+        raise RequestError(f"temperature = {temperature_c:g} deg C: must be {COLDEST_C:g} to {WARMEST_C:g}")
     model = energy_model(vehicle, temperature_c=temperature_c)
     wanted = wanted_of(vehicle, speed_m_s, pitch_deg, depth_m)
     check_dive(vehicle, model, wanted)

@@ -18,7 +18,6 @@ SPAN_OF_SOURCED, SPAN_OF_ASSUMED, SPAN_OF_MODELLED = 0.10, 0.30, 0.30
 """How far a number is varied: one with a source, an assumption, the energy of an actuator."""
 TEMPERATURE_SPAN = 5.0
 """How far the water's temperature is varied [K]."""
-SECANT_STEPS = 12
 
 _NUMBERS_OF_CONSUMERS = ("power_w", "standby_w", "duty", "sample_s", "sample_every_s", "seconds_per_surfacing")
 _SHARES = {"usable_fraction", "self_discharge_per_month", "regulator_efficiency", "pump_efficiency",
@@ -233,28 +232,23 @@ def _elasticity(days: Callable[[float], float | None], assumption: Assumption, h
 def _needed(
     days: Callable[[float], float | None], assumption: Assumption, slope: float, result: Endurance, target: float
 ) -> float | None:
-    """Value that alone gives the target: by secants on the mean power, in which most numbers are linear."""
+    """Value between the present one and the best allowed that alone gives the target; None if there is none."""
     if slope == 0.0 or assumption.key == "battery.voltage_v":  # the machines are made for the voltage
         return None
     low, high = _allowed(assumption, result)
     rising = slope > 0.0 if assumption.value > 0.0 else slope < 0.0
-    good, bad = high if rising else low, assumption.value
-    at_good, at_bad = days(good), result.days
-    if at_good is None or at_good < target:
+    best = high if rising else low
+    reached = days(best)
+    if reached is None or reached < target:
         return None
-    for _ in range(SECANT_STEPS):
-        share = (1.0 / target - 1.0 / at_bad) / (1.0 / at_good - 1.0 / at_bad)
-        middle = bad + min(max(share, 0.0), 1.0) * (good - bad)
-        reached = days(middle)
-        if reached is None:
-            return None
-        if abs(reached - target) < 1e-6 * target:
-            return middle
-        if reached > target:
-            good, at_good = middle, reached
-        else:
-            bad, at_bad = middle, reached
-    return good
+    from scipy.optimize import brentq  # noqa: PLC0415 - slow to import, seldom wanted
+
+    def short(value: float) -> float:
+        """Relative time that is missing; what cannot be flown lasts no time."""
+        return target / (days(value) or 1e-3) - 1.0
+
+    found: float = brentq(short, assumption.value, best, rtol=1e-9)
+    return found
 
 
 def _allowed(assumption: Assumption, result: Endurance) -> tuple[float, float]:

@@ -106,7 +106,9 @@ def analyse(
 
         shown = choice.chosen if choice is not None else None
         at = shown.motor_speed if shown is not None else runs[-1].point.motor_speed
-        written = save_figure(performance_figure(runs, generated=log.generated, choice=choice), plot)
+        written = save_figure(
+            performance_figure([run.point for run in runs], generated=log.generated, choice=choice), plot
+        )
         written += save_figure(response_figure(log, at), plot.with_name(f"{plot.name}-response"))
     rows = [run.as_row(area, limit.volume) for run in runs]
     if as_json:
@@ -164,7 +166,7 @@ def fit(
         from stommel.design.plots import save_figure
 
         written = save_figure(fit_figure(found, runs, generated=log.generated), plot)
-        curves = performance_figure(runs, generated=log.generated, engine=found.engine)
+        curves = performance_figure([run.point for run in runs], generated=log.generated, engine=found.engine)
         written += save_figure(curves, plot.with_name(f"{plot.name}-curves"))
     if as_json:
         show_json(_head(log) | found.as_json() | {"plots": [str(path) for path in written]})

@@ -34,6 +34,7 @@ from stommel.analysis import (
     trim_table,
     turn,
 )
+from stommel.design.bench.speed_study import SpeedStudy, speed_study
 from stommel.design.hull.study import HullStudy, hull_study
 from stommel.design.published import PublishedRow, published_tables
 from stommel.design.specification import SpecificationRow, specification_check
@@ -93,6 +94,8 @@ class DesignStudy:
     """Steady turns at growing turn rate, steered by what the vehicle has."""
     hull: HullStudy | None
     """Pressure hull in every material."""
+    motor_speed: SpeedStudy | None
+    """Motor speeds of the buoyancy engine compared by its model."""
     numbers: tuple[tuple[str, object, Provenance], ...]
     """Every number of the vehicle file with its origin."""
     notes: tuple[str, ...]
@@ -162,6 +165,7 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
     )
     turns = ask("turns", lambda: _turns(vehicle, physics, speed, pitch)) or ()
     hull = ask("pressure hull", lambda: hull_study(vehicle))
+    motor_speed = ask("motor speed", lambda: speed_study(vehicle))
     return DesignStudy(
         vehicle=vehicle,
         physics=physics,
@@ -177,6 +181,7 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
         loci=loci,
         turns=turns,
         hull=hull,
+        motor_speed=motor_speed,
         numbers=tuple(stated_numbers(vehicle)),
         notes=vehicle.description.notes,
         unanswered=tuple(unanswered),

@@ -5,7 +5,7 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from stommel.design.bench.engine_log import EngineLog
-from stommel.design.bench.performance import OperatingPoint, RunPerformance, levels, model_points, nearest
+from stommel.design.bench.performance import OperatingPoint, levels, model_points, nearest
 from stommel.design.bench.quantities import MARKER
 from stommel.design.bench.speed_choice import SpeedChoice
 from stommel.design.engine.steady_state import EngineParameters
@@ -36,7 +36,7 @@ def mark_generated(figure: "Figure", generated: bool) -> None:
 
 @styled
 def performance_figure(
-    runs: Sequence[RunPerformance],
+    points: Sequence[OperatingPoint],
     *,
     generated: bool,
     engine: EngineParameters | None = None,
@@ -46,10 +46,10 @@ def performance_figure(
 
     Parameters
     ----------
-    runs
-        Averages of the runs.
+    points
+        Averages of the runs of a log, or points of the model.
     generated
-        The model made the log; the figure says so.
+        They come from the model; the figure says so.
     engine
         If given, its curves are drawn through the points.
     choice
@@ -58,7 +58,6 @@ def performance_figure(
     figure = new_figure(9.6, 4.7)
     mark_generated(figure, generated)
     left, right = figure.subplots(1, 2)
-    points = [run.point for run in runs]
     pressures = levels([point.pressure for point in points])
     for k, (P, colour) in enumerate(zip(pressures, pressure_colours(len(pressures)), strict=True)):
         here = [point for point in points if nearest(point.pressure, pressures) == k]
@@ -129,7 +128,7 @@ def response_figure(log: EngineLog, motor_speed: float) -> "Figure":
             f"{t[-1]:.0f} s", (t[-1], run.piston_travel[-1] * 1e3), xytext=(0, -6), textcoords="offset points",
             ha="center", va="top", fontsize=8.2, color=MUTED,
         )  # fmt: skip
-    axes.set_title(f"Response at {speeds[at] * _RPM:.0f} r/min")
+    axes.set_title(f"Response at {round(speeds[at] * _RPM, -1):.0f} r/min")
     axes.set_xlabel("Time since the motor started [s]")
     axes.set_ylabel("Piston travel [mm]")
     axes.set_xlim(left=0.0)

@@ -3,6 +3,7 @@
 import re
 from typing import TYPE_CHECKING
 
+from stommel.design.bench.performance_plot import performance_figure
 from stommel.design.hull.plot import hull_figure
 from stommel.design.plots import (
     authority_figure,
@@ -54,6 +55,10 @@ def figures(study: DesignStudy) -> dict[str, "Markup"]:
         found["turns"] = inline_svg(turns_figure(study), "turns", "Turning flight against turn rate")
     if study.hull is not None:
         found["hull"] = inline_svg(hull_figure(study.hull), "hull", "Pressure against wall, and mass by material")
+    if study.motor_speed is not None:
+        speed = study.motor_speed
+        drawn = performance_figure(speed.points, generated=True, engine=speed.engine, choice=speed.choice)
+        found["motor-speed"] = inline_svg(drawn, "motorspeed", "Current and consumption against motor speed")
     for k, locus in enumerate(study.loci):
         drawn = root_locus_figure(locus, modes=study.modes)
         found[f"locus-{k}"] = inline_svg(drawn, f"locus{k}", f"Root locus over {locus.over}")

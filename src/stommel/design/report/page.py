@@ -91,7 +91,7 @@ def _context(study: DesignStudy) -> dict[str, Any]:
         "figures": figures(study),
         "why": {
             part: wording.why_unanswered(study, part)
-            for part in ("trim tables", "flight envelope", "best conditions", "turns", "pressure hull")
+            for part in ("trim tables", "flight envelope", "best conditions", "turns", "pressure hull", "motor speed")
         },
         "best": _best(study),
         "best_rows": _BEST_ROWS,

@@ -137,7 +137,8 @@ def _plane_tide(frame: Frame, plane: Array) -> NDArray[np.float32]:
 def _levels(water: NDArray[np.float32]) -> NDArray[np.int32]:
     """Levels from the surface down to the first that lacks a field at some time."""
     present = np.isfinite(water).all(axis=(0, 3))
-    return np.cumprod(present, axis=-1).sum(axis=-1).astype(np.int32)
+    levels: NDArray[np.int32] = np.cumprod(present, axis=-1).sum(axis=-1).astype(np.int32)
+    return levels
 
 
 def _carry_down(water: NDArray[np.float32], levels: NDArray[np.int32]) -> None:

@@ -230,7 +230,8 @@ def _accelerate(
 @inlined
 def _blend(grid: OceanGrid, first: int, second: int, share: float, j: int, i: int, field: int, k: int) -> float:
     a, b = grid.water[first, j, i, field, k], grid.water[second, j, i, field, k]
-    return a + share * (b - a)
+    blend: float = a + share * (b - a)
+    return blend
 
 
 @inlined
@@ -363,11 +364,11 @@ def _spread(
 @inlined
 def _profile_density(depths: np.ndarray, rho: np.ndarray, z: float) -> float:
     """Density that is given directly, held at the ends of its depths."""
-    if z <= depths[0] or depths.size == 1:
-        return rho[0]
-    k = min(np.searchsorted(depths, z), depths.size - 1)
-    share = min((z - depths[k - 1]) / (depths[k] - depths[k - 1]), 1.0)
-    return rho[k - 1] + share * (rho[k] - rho[k - 1])
+    k = min(max(int(np.searchsorted(depths, z)), 1), depths.size - 1)
+    first = max(k - 1, 0)
+    share = min(max((z - depths[first]) / (depths[k] - depths[first]), 0.0), 1.0) if k > first else 0.0
+    at: float = rho[first] + share * (rho[k] - rho[first])
+    return at
 
 
 @inlined

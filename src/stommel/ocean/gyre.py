@@ -35,10 +35,10 @@ class Gyre(Still):
         p = properties.pressure_from_depth(layers.depths, self.latitude_deg)
         water = (properties.in_situ_temperature(layers.CT, layers.S_A, p), layers.S_A, layers.CT)
         full = np.ones((len(layers.depths), *latitude.shape))
-        fields = [f[:, None, None] * full for f in water]
+        T, S_A, CT = (f[:, None, None] * full for f in water)
         bottom = self.bottom_m if self.bottom_m is not None else UNBOUNDED_DEPTH
         frame = Frame(
             np.zeros(1), (-np.inf, np.inf), layers.depths, latitude, longitude, np.full(latitude.shape, bottom),
             profile_depths=layers.rho_depths, profile_rho=layers.rho,
         )  # fmt: skip
-        return ocean_grid(frame, [Slot(*fields, -turn * north * full, turn * east * full)], "error", "error")
+        return ocean_grid(frame, [Slot(T, S_A, CT, -turn * north * full, turn * east * full)], "error", "error")

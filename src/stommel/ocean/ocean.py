@@ -71,7 +71,7 @@ class Sample:
     acceleration_east: float
     """[m/s2]"""
     bottom_depth: float
-    """[m]"""
+    """[m]; infinite where the ocean has no bottom."""
     held: bool
     """The point lies outside the data, and the ocean's policy answered."""
 
@@ -183,11 +183,17 @@ class Ocean:
             )
         row = column.values[round(depth_m / step)]
         return Sample(
-            *(float(row[q]) for q in (RHO, P, TEMPERATURE, CT_ROW, SALINITY, NORTH, EAST)),
-            float(row[NORTH_ACCELERATION]),
-            float(row[EAST_ACCELERATION]),
-            bottom,
-            held,
+            density=float(row[RHO]),
+            pressure=float(row[P]),
+            temperature=float(row[TEMPERATURE]),
+            conservative_temperature=float(row[CT_ROW]),
+            absolute_salinity=float(row[SALINITY]),
+            current_north=float(row[NORTH]),
+            current_east=float(row[EAST]),
+            acceleration_north=float(row[NORTH_ACCELERATION]),
+            acceleration_east=float(row[EAST_ACCELERATION]),
+            bottom_depth=_or_infinite(bottom),
+            held=held,
         )
 
     def bottom_depth(self, latitude_deg: float, longitude_deg: float) -> float:
@@ -200,8 +206,7 @@ class Ocean:
         """
         column = new_column(self.data, 1.0, 1.0)
         self._fill(self._some_time(), latitude_deg, longitude_deg, column)
-        bottom = float(column.place[BOTTOM])
-        return bottom if bottom < UNBOUNDED_DEPTH else float("inf")
+        return _or_infinite(float(column.place[BOTTOM]))
 
     def is_land(self, latitude_deg: float, longitude_deg: float) -> bool:
         """Say whether a place within the data is on land.
@@ -329,3 +334,7 @@ class Ocean:
 
 def _place(latitude_deg: float, longitude_deg: float) -> str:
     return f"latitude {latitude_deg:g}, longitude {longitude_deg:g}"
+
+
+def _or_infinite(bottom: float) -> float:
+    return bottom if bottom < UNBOUNDED_DEPTH else float("inf")

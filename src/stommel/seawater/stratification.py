@@ -50,16 +50,20 @@ class Stratification:
 
     def density(self, z: ArrayLike) -> NDArray[np.float64]:
         """In-situ density at depth `z` [kg/m3]."""
-        z = np.asarray(z, dtype=np.float64)
         if self.rho.size:
-            return np.interp(z, self.rho_depths, self.rho)
+            return self._at(z, self.rho_depths, self.rho)
         p = properties.pressure_from_depth(z, self.latitude)
-        return properties.density(np.interp(z, self.depths, self.S_A), np.interp(z, self.depths, self.CT), p)
+        return properties.density(self._at(z, self.depths, self.S_A), self._at(z, self.depths, self.CT), p)
 
     def sound_speed(self, z: ArrayLike) -> NDArray[np.float64]:
         """Speed of sound at depth `z` [m/s]."""
         p = properties.pressure_from_depth(z, self.latitude)
-        return properties.sound_speed(np.interp(z, self.depths, self.S_A), np.interp(z, self.depths, self.CT), p)
+        return properties.sound_speed(self._at(z, self.depths, self.S_A), self._at(z, self.depths, self.CT), p)
+
+    @staticmethod
+    def _at(z: ArrayLike, depths: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.float64]:
+        found: NDArray[np.float64] = np.asarray(np.interp(np.asarray(z, dtype=np.float64), depths, values))
+        return found
 
 
 def uniform(S_A: float, CT: float, depth: float) -> Stratification:

@@ -1,0 +1,49 @@
+"""The guide's commands run, in their order, and its numbers are what they print."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Command, stommel
+
+__all__ = ["stommel"]
+
+GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "endurance.md"
+
+
+def number(pattern: str) -> float:
+    found = re.search(pattern, " ".join(GUIDE.read_text(encoding="utf-8").split()))
+    assert found is not None, pattern
+    return float(found.group(1))
+
+
+def decided(text: str) -> str:
+    """The vehicle file after the decisions of the guide's TOML block, applied as it says."""
+    (block,) = re.findall(r"```toml\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S)
+    consumer, plan = (part.split("\n", 1)[1] for part in block.split("# in ")[1:])
+    text = text.replace('on = "always"\n', consumer.strip() + "\n", 1)
+    changed = re.sub(r"^dives_per_surfacing = .*$", plan.strip(), text, flags=re.M)
+    assert changed != text
+    return changed
+
+
+def test_commands_and_numbers(stommel: Command, tmp_path: Path) -> None:
+    blocks = re.findall(r"```console\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S)
+    for line in "".join(blocks).splitlines():
+        program, *arguments = line.removeprefix("$ ").split()
+        assert program == "stommel"
+        assert stommel(*arguments).status == 0, line
+        if arguments[:2] == ["vehicle", "new"]:
+            mine = tmp_path / arguments[2]
+            mine.write_text(decided(mine.read_text()))
+    published = stommel("endurance", "zju", "--json").json
+    assert published["endurance_days"] == pytest.approx(number(r"they give \*\*([\d.]+) days"), abs=0.05)
+    assert published["gap"]["allowed_power_w"] == pytest.approx(number(r"allow a mean of ([\d.]+) W"), abs=0.005)
+    assert published["mean_power_w"] == pytest.approx(number(r"the vehicle takes ([\d.]+) W"), abs=0.005)
+    assert published["gap"]["closed_by_favourable_assumptions"] is False
+    mine_days = stommel("endurance", "mine.toml", "--json").json["endurance_days"]
+    assert mine_days == pytest.approx(number(r"That makes ([\d.]+) days"), abs=0.05)
+    slower = stommel("endurance", "mine.toml", "--speed", 0.3, "--json").json
+    assert slower["endurance_days"] == pytest.approx(number(r"are met, with ([\d.]+) days"), abs=0.5)
+    assert slower["target_met"] is True

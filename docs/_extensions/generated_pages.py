@@ -22,6 +22,7 @@ from sphinx.util import logging
 import stommel
 from stommel.vehicle.messages import allowed_range, unit_of
 from stommel.vehicle.schema import VehicleFile
+from stommel.vehicle.schema.fields import Table
 
 logger = logging.getLogger(__name__)
 
@@ -30,15 +31,16 @@ UNITS = {"coupling_kg_m": "kg m"}
 
 
 def attribute_docstrings(model: type[BaseModel]) -> dict[str, str]:
-    """Return the text that stands below each attribute in the source of a class."""
-    body = ast.parse(inspect.getsource(model)).body[0]
-    assert isinstance(body, ast.ClassDef)
+    """Return the text that stands below each attribute in the source of a class or of the tables it inherits from."""
     found = {}
-    for before, after in zip(body.body, body.body[1:], strict=False):
-        if isinstance(before, ast.AnnAssign) and isinstance(before.target, ast.Name):
-            match after:
-                case ast.Expr(ast.Constant(str(text))):
-                    found[before.target.id] = " ".join(text.split())
+    for table in reversed([base for base in model.__mro__ if issubclass(base, Table) and base is not Table]):
+        body = ast.parse(inspect.getsource(table)).body[0]
+        assert isinstance(body, ast.ClassDef)
+        for before, after in zip(body.body, body.body[1:], strict=False):
+            if isinstance(before, ast.AnnAssign) and isinstance(before.target, ast.Name):
+                match after:
+                    case ast.Expr(ast.Constant(str(text))):
+                        found[before.target.id] = " ".join(text.split())
     return found
 
 

@@ -1,10 +1,13 @@
-"""Engines that the tests share."""
+"""Engines that the tests share, and the command as in tests/cli."""
 
 import pytest
 
 from stommel.design.engine import engine_of, load_engine
 from stommel.vehicle import load_vehicle
 from stommel.vehicle.schema import Engine
+from tests.cli.conftest import stommel
+
+__all__ = ["stommel"]
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,7 @@ import typer
 
 from stommel.cli.options import JsonOption, VehicleArgument, load
 from stommel.cli.output import number, show_json, show_table, show_values
+from stommel.errors import OutputError
 
 if TYPE_CHECKING:
     from stommel.design.engine import EngineRun, PhaseResult
@@ -84,6 +85,8 @@ def _plotted(run: "EngineRun", path: Path) -> list[Path]:
     from stommel.design.engine import engine_figure
     from stommel.design.plots import save_figure
 
+    if not path.name:
+        raise OutputError(f"{path}: cannot be written: it is a folder")
     stem = path.with_suffix("") if path.suffix in (".png", ".svg") else path
     return save_figure(engine_figure(run), stem)
 

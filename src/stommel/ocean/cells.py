@@ -43,7 +43,10 @@ def jacobian(
 @inlined
 def mapped(a: NDArray[np.float64], j: int, i: int, u: float, v: float) -> float:
     """Bilinear value of a node array at (u, v) of a cell."""
-    return (1.0 - v) * ((1.0 - u) * a[j, i] + u * a[j, i + 1]) + v * ((1.0 - u) * a[j + 1, i] + u * a[j + 1, i + 1])
+    value: float = (1.0 - v) * ((1.0 - u) * a[j, i] + u * a[j, i + 1]) + v * (
+        (1.0 - u) * a[j + 1, i] + u * a[j + 1, i + 1]
+    )
+    return value
 
 
 @inlined

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import ceil, degrees, radians
+from math import ceil, radians
 from pathlib import Path
 from typing import Any, Self
 
@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.ocean import times
-from stommel.ocean.chart import project
 from stommel.ocean.column import fill_column
 from stommel.ocean.errors import BelowBottomError, LandError, OutsideOceanError
 from stommel.ocean.grid import (
@@ -26,7 +25,6 @@ from stommel.ocean.grid import (
     NORTH_ACCELERATION,
     OUTSIDE_SPACE,
     OUTSIDE_TIME,
-    POLICIES,
     RHO,
     S_A,
     SALINITY,
@@ -38,6 +36,7 @@ from stommel.ocean.grid import (
     new_cell,
     new_column,
 )
+from stommel.ocean.summary import extent_of, node_places, summary_of
 from stommel.ocean.times import Time
 from stommel.seawater.stratification import Stratification
 from stommel.seawater.table import DensityTable, density_table
@@ -45,7 +44,6 @@ from stommel.seawater.table import DensityTable, density_table
 _SAMPLE_STEP = 10.0
 """Largest step of the column that answers a single question [m]."""
 _DEEPEST = 11900.0
-_POLICY_NAMES = {number: name for name, number in POLICIES.items()}
 
 
 @dataclass(frozen=True)
@@ -243,55 +241,11 @@ class Ocean:
 
     def summary(self) -> dict[str, Any]:
         """Extent, resolution, ranges and policy, with units in the names."""
-        data = self.data
-        wet = data.levels > 0
-        found = data.water[: len(data.times)][:, wet]
-        speed = np.hypot(found[:, :, 3], found[:, :, 4])
-        rows: dict[str, Any] = {
-            "name": self.name,
-            "times": len(data.times),
-            "first_time": times.text(float(data.time_range[0])),
-            "last_time": times.text(float(data.time_range[1])),
-            "nodes": list(data.x.shape),
-            "wet_nodes": int(wet.sum()),
-            "levels": len(data.depths),
-            "deepest_level_m": float(data.depths[-1]),
-            **self._extent(),
-            "temperature_c": [float(found[:, :, 0].min()), float(found[:, :, 0].max())],
-            "absolute_salinity_g_kg": [float(found[:, :, 1].min()), float(found[:, :, 1].max())],
-            "greatest_current_m_s": float(speed.max()),
-            "tidal_constituents": len(data.tide_speed),
-            "bottom_m": [float(data.bottom[wet].min()), float(data.bottom[wet].max())]
-            if self._deepest_bottom() < UNBOUNDED_DEPTH
-            else None,
-            "outside": _POLICY_NAMES[data.outside_space],
-            "outside_time": _POLICY_NAMES[data.outside_time],
-            "density_error_kg_m3": None if data.profile_depths.size else self.table.largest_error,
-            "notes": dict(self.notes),
-        }
-        return rows
+        return summary_of(self.name, self.data, self.notes, self.table)
 
     def node_places(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Latitude and longitude of the nodes (j, i) [deg]."""
-        from stommel.ocean.unproject import unproject  # noqa: PLC0415 - few need it
-
-        latitude, longitude = unproject(self.data.chart, self.data.x, self.data.y)
-        return np.degrees(latitude), np.degrees(longitude)
-
-    def _extent(self) -> dict[str, Any]:
-        if self.data.x.size == 1:
-            return {"latitude_deg": None, "longitude_deg": None, "spacing_km": None}
-        latitude, longitude = self.node_places()
-        # longitudes beside the middle one, so that the date line does not tear them
-        middle = degrees(self.data.chart.longitude)
-        beside = middle + (longitude - middle + 180.0) % 360.0 - 180.0
-        spacing = np.hypot(np.diff(self.data.x, axis=1), np.diff(self.data.y, axis=1))
-        scale = project(self.data.chart, radians(float(np.median(latitude))), self.data.chart.longitude).scale
-        return {
-            "latitude_deg": [float(latitude.min()), float(latitude.max())],
-            "longitude_deg": [float(beside.min()), float(beside.max())],
-            "spacing_km": float(np.median(spacing)) / scale / 1e3,
-        }
+        return node_places(self.data)
 
     def _deepest_bottom(self) -> float:
         return float(self.data.bottom.max())
@@ -324,7 +278,7 @@ class Ocean:
                 'outside_time = "hold" or "climatology" allows it'
             )
         if status == OUTSIDE_SPACE:
-            extent = self._extent()
+            extent = extent_of(self.data)
             low, high = extent["latitude_deg"], extent["longitude_deg"]
             raise OutsideOceanError(
                 f"{self.name}: {place} is outside the ocean, which lies within latitude {low[0]:.4g} to {low[1]:.4g}, "

@@ -156,8 +156,10 @@ def _fitted(ranges: Sequence[Range], degrees: Sequence[int]) -> DensityTable:
         coefficients = np.moveaxis(np.tensordot(inverse, coefficients, axes=(1, axis)), 0, axis)
     check = [np.linspace(-1.0, 1.0, n) for n in _CHECK_POINTS]
     error = float(np.abs(_polynomial(coefficients, check) - _gsw_density(ranges, check)).max())
-    middles_and_halves = [number for low, high in ranges for number in (0.5 * (low + high), 0.5 * (high - low))]
-    return DensityTable(np.ascontiguousarray(np.moveaxis(coefficients, 2, 0)), *middles_and_halves, error)
+    middle = [0.5 * (low + high) for low, high in ranges]
+    half = [0.5 * (high - low) for low, high in ranges]
+    pressure_first = np.ascontiguousarray(np.moveaxis(coefficients, 2, 0))
+    return DensityTable(pressure_first, middle[0], half[0], middle[1], half[1], middle[2], half[2], error)
 
 
 def _polynomial(coefficients: NDArray[np.float64], scaled: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:

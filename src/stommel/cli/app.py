@@ -16,6 +16,7 @@ from stommel.cli import (
     envelope,
     hull,
     modes,
+    ocean,
     root_locus,
     steady,
     table,
@@ -68,3 +69,4 @@ app.command("budget")(budget.budget)
 app.command("vehicles")(vehicles.vehicles)
 app.add_typer(vehicles.vehicle_app, name="vehicle")
 app.add_typer(bench.bench_app, name="bench")
+app.add_typer(ocean.ocean_app, name="ocean")

@@ -70,9 +70,9 @@ def draw_ocean(
     if ocean.grid().x.size > 1:
         left, right = figure.subfigures(1, 2, width_ratios=(2.0, 1.0))
         _draw_map(left, ocean, time, depth, here)
+        _draw_column(right.subplots(1, 1), ocean, time, here)
     else:
-        right = figure.subfigures(1, 1)
-    _draw_column(right.subplots(1, 1), ocean, time, here)
+        _draw_column(figure.subplots(1, 1), ocean, time, here)
 
 
 def _deepest_place(ocean: Ocean) -> tuple[float, float]:

@@ -35,6 +35,8 @@ from stommel.analysis import (
     turn,
 )
 from stommel.design.bench.speed_study import SpeedStudy, speed_study
+from stommel.design.energy import EnergyStudy, energy_study
+from stommel.design.engine.study import EngineStudy, engine_study
 from stommel.design.hull.study import HullStudy, hull_study
 from stommel.design.published import PublishedRow, published_tables
 from stommel.design.specification import SpecificationRow, specification_check
@@ -94,6 +96,10 @@ class DesignStudy:
     """Steady turns at growing turn rate, steered by what the vehicle has."""
     hull: HullStudy | None
     """Pressure hull in every material."""
+    engine: EngineStudy | None
+    """Cycles of the buoyancy engine at the surface and at depth."""
+    energy: EnergyStudy | None
+    """Energy of a dive, endurance, best dives and sensitivities at the specification's dive."""
     motor_speed: SpeedStudy | None
     """Motor speeds of the buoyancy engine compared by its model."""
     numbers: tuple[tuple[str, object, Provenance], ...]
@@ -165,6 +171,8 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
     )
     turns = ask("turns", lambda: _turns(vehicle, physics, speed, pitch)) or ()
     hull = ask("pressure hull", lambda: hull_study(vehicle))
+    oil = ask("buoyancy engine", lambda: engine_study(vehicle))
+    energy = ask("endurance", lambda: energy_study(vehicle, physics=physics))
     motor_speed = ask("motor speed", lambda: speed_study(vehicle))
     return DesignStudy(
         vehicle=vehicle,
@@ -181,6 +189,8 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
         loci=loci,
         turns=turns,
         hull=hull,
+        engine=oil,
+        energy=energy,
         motor_speed=motor_speed,
         numbers=tuple(stated_numbers(vehicle)),
         notes=vehicle.description.notes,

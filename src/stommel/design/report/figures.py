@@ -4,6 +4,8 @@ import re
 from typing import TYPE_CHECKING
 
 from stommel.design.bench.performance_plot import performance_figure
+from stommel.design.energy.figure import endurance_figure
+from stommel.design.engine.engine_plot import engine_figure
 from stommel.design.hull.plot import hull_figure
 from stommel.design.plots import (
     authority_figure,
@@ -53,8 +55,14 @@ def figures(study: DesignStudy) -> dict[str, "Markup"]:
         found["envelope"] = inline_svg(envelope_figure(study), "envelope", "Reachable speeds against pitch")
     if study.turns:
         found["turns"] = inline_svg(turns_figure(study), "turns", "Turning flight against turn rate")
+    if study.energy is not None:
+        drawn = endurance_figure(study.energy)
+        found["endurance"] = inline_svg(drawn, "endurance", "Energy by part, sensitivities, endurance against speed")
     if study.hull is not None:
         found["hull"] = inline_svg(hull_figure(study.hull), "hull", "Pressure against wall, and mass by material")
+    if study.engine is not None:
+        drawn = engine_figure(study.engine.deep)
+        found["engine"] = inline_svg(drawn, "engine", "Piston, flow, pressures, power, current and voltage over time")
     if study.motor_speed is not None:
         speed = study.motor_speed
         drawn = performance_figure(speed.points, generated=True, engine=speed.engine, choice=speed.choice)

@@ -9,6 +9,7 @@ from typing import Any
 from stommel import __version__
 from stommel.analysis import LinearModel, Mode
 from stommel.analysis.limits import excesses
+from stommel.design.energy.study import MODEL_ASSUMPTIONS
 from stommel.design.plots import planes_of
 from stommel.design.report import wording
 from stommel.design.report.figures import figures
@@ -91,8 +92,18 @@ def _context(study: DesignStudy) -> dict[str, Any]:
         "figures": figures(study),
         "why": {
             part: wording.why_unanswered(study, part)
-            for part in ("trim tables", "flight envelope", "best conditions", "turns", "pressure hull", "motor speed")
+            for part in (
+                "trim tables",
+                "flight envelope",
+                "best conditions",
+                "turns",
+                "pressure hull",
+                "buoyancy engine",
+                "endurance",
+                "motor speed",
+            )
         },
+        "energy_assumptions": MODEL_ASSUMPTIONS,
         "best": _best(study),
         "best_rows": _BEST_ROWS,
         "planes": [

@@ -79,5 +79,5 @@ def mass_budget(vehicle: Vehicle) -> Budget:
         moving=mass_properties(part for part in d.parts if part.moving),
         ballast=mass_properties(part for part in d.parts if part.ballast),
         volume=volume,
-        centre_of_buoyancy=moment / volume,
+        centre_of_buoyancy=moment / volume,  # (eq-w4)
     )

@@ -112,7 +112,7 @@ class PitchDrive:
         return direction * weight * sin(theta) + self.guide_friction * weight * cos(theta)  # (eq-d6)
 
     def motor_torque(self, load: float) -> float:
-        """Torque at the motor's shaft for a force against the motion [N m]."""
+        """Torque at the motor's shaft for a force against the motion, stage by stage [N m] (eq-d7)."""
         wheel = self.screw.input_torque(load * self.lead / (2.0 * pi))
         worm = wheel / self.worm_ratio if self.worm is None else self.worm.input_torque(wheel / self.worm_ratio)
         return self.gearbox.input_torque(worm)

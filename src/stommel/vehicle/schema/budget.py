@@ -17,6 +17,7 @@ class Part(Table):
     """One entry of the mass and volume budget. Without dimensions it is a point."""
 
     name: Annotated[str, Field(min_length=1)]
+    """What it is; no two parts share a name."""
     bay: str
     """Name of the bay that it belongs to."""
     mass_kg: NotNegative

@@ -149,7 +149,7 @@ def test_the_verdict_reaches_the_papers_choices(page):
     assert "±300 mm" in page.text
     assert "Needed: ±268.6 mm about neutral at 250 mm" in page.text
     assert "±250 ml" in page.text
-    assert "10 of 11 requirements met; cannot be told: Endurance." in page.text
+    assert "10 of 11 requirements met; not met: Endurance." in page.text
     assert "stable" in page.text
 
 

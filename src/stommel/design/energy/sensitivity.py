@@ -84,7 +84,8 @@ def assumptions(vehicle: Vehicle, result: Endurance) -> Iterator[Assumption]:
     model, wanted = result.model, result.wanted
 
     def of(key: str, what: str, value: float) -> Assumption:
-        return Assumption(key, what, float(value), unit_of(key) or "1", vehicle.provenance_of(key))
+        unit = "s" if key.endswith("seconds_per_surfacing") else unit_of(key) or "1"
+        return Assumption(key, what, float(value), unit, vehicle.provenance_of(key))
 
     chosen = Provenance("source", "the dive that is asked about")
     yield Assumption("dive.speed_m_s", "speed along the path", wanted.speed_m_s, "m/s", chosen)

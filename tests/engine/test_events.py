@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from stommel.design.engine import Outcome, engine_parameters, simulate, stall_pressure
+from stommel.design.engine.segments import SimulationError
 from stommel.design.engine.steady_state import steady_state
 from stommel.vehicle.schema import Engine
 
@@ -151,3 +152,9 @@ def test_accumulator_fills_and_holds() -> None:
     assert "accumulator fills" in found
     assert "accumulator is empty" in found
     assert found.index("accumulator fills") < found.index("accumulator is empty")
+
+
+def test_stick_and_slip_is_named(zju: Engine) -> None:
+    rough = replaced(zju, "reservoirs", stribeck_n=20.0, stribeck_mm_s=0.5, viscous_n_s_m=300.0)
+    with pytest.raises(SimulationError, match="sticks and slips"):
+        simulate(rough, pressure_pa=2e6, inflate_m3=500 * ML)

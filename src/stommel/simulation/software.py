@@ -110,20 +110,13 @@ def reckon(
     software: np.record, table: FlightTable, attitude: Attitude, depth: float, V_b: float, t: float, step: float
 ) -> None:
     """Move the vehicle's own idea of its position by one step under water."""
-    weight = min(1.0, VERTICAL_FILTER * step)
-    software.vertical_speed += weight * ((depth - software.depth_before) / step - software.vertical_speed)
+    weight, before, since = min(1.0, VERTICAL_FILTER * step), software.path_speed, t - software.since
+    sinking = (1.0 - weight) * software.vertical_speed + weight * (depth - software.depth_before) / step
+    software.vertical_speed = sinking
     if depth < AFLOAT and V_b > 0.0:
         software.path_speed = 0.0
         return
-    software.path_speed, V_h = path_speed(
-        table,
-        float(software.path_speed),
-        float(software.vertical_speed),
-        attitude.theta,
-        V_b,
-        t - float(software.since),
-        step,
-    )
+    software.path_speed, V_h = path_speed(table, before, sinking, attitude.theta, V_b, since, step)
     north, east = V_h * math.cos(attitude.psi) * step, V_h * math.sin(attitude.psi) * step
     software.reckoned_north += north
     software.reckoned_east += east

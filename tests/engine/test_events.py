@@ -156,5 +156,5 @@ def test_accumulator_fills_and_holds() -> None:
 
 def test_stick_and_slip_is_named(zju: Engine) -> None:
     rough = replaced(zju, "reservoirs", stribeck_n=20.0, stribeck_mm_s=0.5, viscous_n_s_m=300.0)
-    with pytest.raises(SimulationError, match="sticks and slips"):
+    with pytest.raises(SimulationError, match="sticks and slips because"):
         simulate(rough, pressure_pa=2e6, inflate_m3=500 * ML)

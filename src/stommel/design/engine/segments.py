@@ -83,8 +83,8 @@ class Stepper:
         """
         if len(self.segments) >= _MOST_SEGMENTS:
             raise SimulationError(
-                f"engine: more than {_MOST_SEGMENTS} events up to {self.t:.3f} s: a valve flutters, or a piston sticks and "
-                "slips because its Stribeck friction falls faster with speed than its viscous friction grows"
+                f"engine: more than {_MOST_SEGMENTS} events up to {self.t:.3f} s: a valve flutters, or a piston sticks "
+                "and slips because its Stribeck friction falls faster with speed than its viscous friction grows"
             )
         solver = self._solver(LSODA, until)
         times, states, event = [self.t], [self.y], None

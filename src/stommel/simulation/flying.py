@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from stommel.control.dive_cycle import DESCENT, RECOVERY, SURFACE, DivePlan
+from stommel.control.dive_cycle import DESCENT, INFLECTION, NOTHING, RECOVERY, SURFACE, DivePlan
 from stommel.control.flight_table import FlightTable, look_up
 from stommel.control.guidance import metres_per_radian
 from stommel.control.laws import HeadingLaw, PitchLaw, wrapped
@@ -294,6 +294,8 @@ def _event(events, counts, t, software, world, depth):  # type: ignore[no-untype
     if counts[2] < len(events):
         row = events[counts[2]]
         row[0], row[1], row[2], row[3], row[4] = t, software.phase, world.latitude, world.longitude, depth
+        # the software remembers the last reason; it is that of this change only where a dive or the mission ends
+        row[5] = software.event if software.phase in (INFLECTION, RECOVERY) else float(NOTHING)
         counts[2] += 1
 
 

@@ -141,8 +141,8 @@ SURFACING_COLUMNS = (
 )  # fmt: skip
 """Columns of the list of surfacings."""
 
-EVENT_COLUMNS = ("time", "event", "latitude", "longitude", "depth")
-"""Columns of the list of events."""
+EVENT_COLUMNS = ("time", "phase", "latitude", "longitude", "depth", "reason")
+"""Columns of the list of events: every change of phase, and why where a dive or the mission ends."""
 
 SOFTWARE_STATE = np.dtype(
     [

@@ -99,8 +99,17 @@ def load_mission(path: str | Path) -> Mission:
     return mission_from(document, name, Path(path).parent)
 
 
-def mission_from(document: Mapping[str, Any], origin: str, folder: Path, vehicle: Vehicle | None = None) -> Mission:
-    """Make a mission of a parsed file; files that it names are sought in `folder`; `vehicle` stands in for its own."""
+def mission_from(
+    document: Mapping[str, Any],
+    origin: str,
+    folder: Path,
+    vehicle: Vehicle | None = None,
+    ocean: Ocean | None = None,
+) -> Mission:
+    """Make a mission of a parsed file; files that it names are sought in `folder`.
+
+    `vehicle` and `ocean`, already loaded, stand in for the file's own.
+    """
     try:
         plan = MissionFile.model_validate(document)
     except ValidationError as error:
@@ -111,7 +120,8 @@ def mission_from(document: Mapping[str, Any], origin: str, folder: Path, vehicle
     for key, value in plan.changes.items():
         vehicle = vehicle.with_value(key, value)
     vehicle.require_lateral("a mission")
-    ocean = _ocean(plan, folder)
+    if ocean is None:
+        ocean = _ocean(plan, folder)
     mission = Mission(plan, vehicle, ocean, origin, document)
     _check(mission)
     return replace(mission, vehicle=_ballasted(mission))

@@ -119,7 +119,7 @@ class EastChinaSea(Parameters):
 
     def grid(self) -> OceanGrid:
         """Grid of 5 km across and 20 km along, 43 levels."""
-        latitude, longitude = rectangle(self.latitude_deg, self.longitude_deg, self.jet_bearing_deg, _ACROSS, _ALONG)
+        latitude, longitude, _ = rectangle(self.latitude_deg, self.longitude_deg, self.jet_bearing_deg, _ACROSS, _ALONG)
         bottom = self.bottom(_ACROSS) if self.bottom_m is None else np.full(_ACROSS.shape, self.bottom_m)
         z, d = np.meshgrid(_LEVELS, _ACROSS, indexing="ij")
         theta, salt = self.water(d, z)

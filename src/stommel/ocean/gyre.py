@@ -28,10 +28,10 @@ class Gyre(Still):
         """Grid of 161 x 161 nodes around the middle; beyond it the water is at rest to 0.3 % of the speed: refused."""
         layers = self._layers()
         axis = self.radius_km * 1e3 * np.linspace(-_REACH, _REACH, _NODES)
-        latitude, longitude = rectangle(self.latitude_deg, self.longitude_deg, 0.0, axis, axis)
+        latitude, longitude, outward = rectangle(self.latitude_deg, self.longitude_deg, 0.0, axis, axis)
         east, north = np.meshgrid(axis, axis)
         share = np.hypot(east, north) / (self.radius_km * 1e3)
-        turn = self.speed_m_s / (self.radius_km * 1e3) * np.exp(0.5 * (1.0 - share**2))
+        speed = self.speed_m_s * share * np.exp(0.5 * (1.0 - share**2))
         p = properties.pressure_from_depth(layers.depths, self.latitude_deg)
         water = (properties.in_situ_temperature(layers.CT, layers.S_A, p), layers.S_A, layers.CT)
         full = np.ones((len(layers.depths), *latitude.shape))
@@ -41,4 +41,6 @@ class Gyre(Still):
             np.zeros(1), (-np.inf, np.inf), layers.depths, latitude, longitude, np.full(latitude.shape, bottom),
             profile_depths=layers.rho_depths, profile_rho=layers.rho,
         )  # fmt: skip
-        return ocean_grid(frame, [Slot(T, S_A, CT, -turn * north * full, turn * east * full)], "error", "error")
+        return ocean_grid(
+            frame, [Slot(T, S_A, CT, -speed * np.cos(outward) * full, speed * np.sin(outward) * full)], "error", "error"
+        )

@@ -26,6 +26,9 @@ from stommel.ocean.grid import (
     T,
 )
 
+_TOO_LITTLE = 1e-3
+"""Below this weight of nodes with water at a level, the level above is carried on: at the node without it, exactly."""
+
 
 @inlined
 def wet_weights(grid: OceanGrid, at: CellPoint) -> tuple[tuple[float, float, float, float], float, float]:
@@ -72,7 +75,7 @@ def cell_levels(
                 out[k, EAST] += w * (a[U_Y, k] + share * (b[U_Y, k] - a[U_Y, k]))
                 out[k, NORTH_RATE] += w * (b[U_X, k] - a[U_X, k]) / span
                 out[k, EAST_RATE] += w * (b[U_Y, k] - a[U_Y, k]) / span
-        if total > 0.0:
+        if total > _TOO_LITTLE:
             for q in range(TEMPERATURE, NORTH_ACCELERATION):
                 out[k, q] /= total
         elif k > 0:

@@ -13,9 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from stommel.errors import StommelError
 
-REFERENCE_SALINITY_RATIO = 35.16504 / 35.0
-"""Reference salinity over practical salinity [g/kg] (TEOS-10 manual, section 2.4)."""
-
 Array: TypeAlias = NDArray[np.float64]
 
 
@@ -87,8 +84,7 @@ def absolute_salinity(S_P: ArrayLike, p: ArrayLike, longitude: ArrayLike, latitu
     found = _checked("practical salinity", S_P)
     latitude = _checked("latitude", latitude)
     S_A: Array = gsw.SA_from_SP(found, _checked("sea pressure", p), longitude, latitude)
-    # far from any ocean gsw knows no anomaly: there is none in a pool or a lake
-    return np.where(np.isnan(S_A) & ~np.isnan(found), found * REFERENCE_SALINITY_RATIO, S_A)
+    return S_A
 
 
 def conservative_temperature(t: ArrayLike, S_A: ArrayLike, p: ArrayLike) -> Array:

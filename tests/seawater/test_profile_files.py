@@ -1,0 +1,75 @@
+"""Profiles from CSV files: quantities and units come from the names of the columns."""
+
+from pathlib import Path
+
+import gsw
+import numpy as np
+import pytest
+
+from stommel.errors import FileError
+from stommel.seawater import read_stratification
+
+PLACE = {"latitude": 28.0, "longitude": 126.0}
+
+
+def write(folder: Path, text: str) -> Path:
+    path = folder / "profile.csv"
+    path.write_text(text)
+    return path
+
+
+def test_the_same_water_declared_in_different_quantities(tmp_path: Path) -> None:
+    p = np.array([1.0, 50.0, 300.0])
+    S_P, t = np.array([33.9, 34.5, 34.6]), np.array([27.0, 20.0, 11.0])
+    S_A = gsw.SA_from_SP(S_P, p, 126.0, 28.0)
+    CT, z = gsw.CT_from_t(S_A, t, p), -gsw.z_from_p(p, 28.0)
+    tables = {
+        "pressure_dbar,temperature_c,salinity_psu": (p, t, S_P),
+        "depth_m,conservative_temperature_c,absolute_salinity_g_kg": (z, CT, S_A),
+        "depth_m,potential_temperature_c,salinity_psu": (z, gsw.pt_from_CT(S_A, CT), S_P),
+    }
+    for header, columns in tables.items():
+        rows = "\n".join(",".join(f"{number:.12g}" for number in row) for row in zip(*columns, strict=True))
+        found = read_stratification(write(tmp_path, f"# a cast\n{header}\n{rows}\n"), **PLACE)
+        assert found.depths == pytest.approx(z, rel=1e-9)
+        assert found.density(z) == pytest.approx(gsw.rho(S_A, CT, p), abs=1e-6)
+
+
+def test_density_alone_is_enough(tmp_path: Path) -> None:
+    found = read_stratification(write(tmp_path, "depth_m,density_kg_m3\n0,1020\n100,1025\n"))
+    assert found.density([0.0, 50.0, 300.0]) == pytest.approx([1020.0, 1022.5, 1025.0])
+
+
+def test_columns_of_other_names(tmp_path: Path) -> None:
+    path = write(tmp_path, "Z,T,S\n0,20,35\n10,19,35\n")
+    found = read_stratification(path, {"depth_m": "Z", "temperature_c": "T", "salinity_psu": "S"})
+    assert found.depths.tolist() == [0.0, 10.0]
+
+
+@pytest.mark.parametrize(
+    ("text", "columns", "words"),
+    [
+        ("", None, "is empty"),
+        ("depth_m,temperature_c,salinity_psu\n", None, "no numbers"),
+        ("depth,temperature,salinity\n0,1,2\n", None, "no vertical column; add one of depth_m"),
+        ("depth_m,temperature_c\n0,10\n", None, "no salinity column"),
+        ("depth_m,temperature_c,salinity_psu\n0,10,x\n", None, "line 2: salinity_psu = 'x'"),
+        ("depth_m,temperature_c,salinity_psu\n0,10,35\n\n5,10\n", None, "line 4: salinity_psu = ''"),
+        ("depth_m,temperature_c,salinity_psu\n0,10,99\n", None, "salinity_psu = 99: must be between 0 and 42"),
+        ("depth_m,temperature_c,salinity_psu\n0,nan,35\n", None, "temperature_c = nan"),
+        ("depth_m,temperature_c,salinity_psu\n5,10,35\n5,10,35\n", None, "5 is followed by 5"),
+        ("depth_m,pressure_dbar,density_kg_m3\n5,5,1020\n", None, "only one vertical column"),
+        ("z\n5\n", {"depth": "z"}, "unknown name depth"),
+        ("z\n5\n", {"depth_m": "Z"}, "no column depth_m = 'Z'; there are: z"),
+    ],
+)
+def test_what_is_wrong_is_said(tmp_path: Path, text: str, columns: dict[str, str] | None, words: str) -> None:
+    with pytest.raises(FileError) as refused:
+        read_stratification(write(tmp_path, text), columns)
+    assert words in str(refused.value)
+    assert "profile.csv" in str(refused.value)
+
+
+def test_no_file(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match="cannot be read"):
+        read_stratification(tmp_path / "nothing.csv")

@@ -9,6 +9,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from tests.cli.conftest import stommel
+
+__all__ = ["stommel"]
+
 ROOT = Path(__file__).parents[2]
 
 

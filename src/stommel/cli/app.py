@@ -18,6 +18,7 @@ from stommel.cli import (
     modes,
     ocean,
     root_locus,
+    simulate,
     steady,
     table,
     trim,
@@ -66,6 +67,7 @@ app.command("drives")(drives.drives)
 app.command("engine")(engine.engine)
 app.command("endurance")(endurance.endurance)
 app.command("budget")(budget.budget)
+app.command("simulate")(simulate.simulate)
 app.command("vehicles")(vehicles.vehicles)
 app.add_typer(vehicles.vehicle_app, name="vehicle")
 app.add_typer(bench.bench_app, name="bench")

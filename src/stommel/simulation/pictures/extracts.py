@@ -1,0 +1,80 @@
+"""Parts of a mission's Dataset that pictures need: time in fitting units, the first dives, thinned curves."""
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from stommel.control.dive_cycle import PHASES
+
+Array = NDArray[np.float64]
+
+_UNITS = (("s", 1.0), ("min", 60.0), ("h", 3600.0), ("days", 86400.0))
+
+
+def values(dataset: xr.Dataset, name: str) -> Array:
+    """Values of a variable as doubles."""
+    return np.asarray(dataset[name].values, dtype=float)
+
+
+def seconds(dataset: xr.Dataset, name: str = "time", origin: "np.datetime64 | None" = None) -> Array:
+    """Time since the first row, or since `origin` [s]."""
+    start = dataset["time"].values[0] if origin is None else origin
+    return np.asarray((dataset[name].values - start) / np.timedelta64(1, "ns"), dtype=float) / 1e9
+
+
+def fitting_unit(span: float) -> tuple[str, float]:
+    """Name and length [s] of the unit in which a span of time [s] reads well."""
+    fitting = [unit for unit in _UNITS if span >= 3.0 * unit[1]]
+    return fitting[-1] if fitting else _UNITS[0]
+
+
+def date(dataset: xr.Dataset) -> str:
+    """Date and time of the first row, in words."""
+    return str(np.datetime_as_string(dataset["time"].values[0], unit="m")).replace("T", " ") + " UTC"
+
+
+def first_dives(dataset: xr.Dataset, count: int) -> xr.Dataset:
+    """Rows from the start to the end of the first `count` dives; all of them if there are fewer."""
+    descent = PHASES.index("descent")
+    phase = dataset["event_phase"].values
+    begins = dataset["event_time"].values[phase == descent]
+    if len(begins) <= count:
+        return dataset
+    return dataset.isel(time=dataset["time"].values <= begins[count])
+
+
+def positions(dataset: xr.Dataset, prefix: str = "") -> tuple[Array, Array]:
+    """Kilometres east and north of the first row, on a plane that touches the ellipsoid there."""
+    from pyproj import Transformer  # noqa: PLC0415 - start-up counts
+
+    latitude, longitude = float(dataset["latitude"][0]), float(dataset["longitude"][0])
+    plane = f"+proj=aeqd +lat_0={latitude:.9f} +lon_0={longitude:.9f} +datum=WGS84"
+    to_plane = Transformer.from_crs("EPSG:4326", plane, always_xy=True)
+    east, north = to_plane.transform(values(dataset, f"{prefix}longitude"), values(dataset, f"{prefix}latitude"))
+    return np.asarray(east) / 1e3, np.asarray(north) / 1e3
+
+
+def travelled(dataset: xr.Dataset) -> Array:
+    """Horizontal way over ground since the first row [m]."""
+    east, north = positions(dataset)
+    return 1e3 * np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(east), np.diff(north)))])
+
+
+def unbroken(angles: Array) -> Array:
+    """Headings [deg] between -180 and 180 about their mean, so that north is no break."""
+    middle = np.degrees(np.angle(np.exp(1j * np.radians(angles)).mean()))
+    return np.asarray(middle + (angles - middle + 180.0) % 360.0 - 180.0)
+
+
+def thinned(time: Array, curve: Array, most: int) -> tuple[Array, Array]:
+    """At most `most` points of a curve: the least and the greatest of each stretch, so that no peak is lost."""
+    if len(time) <= most:
+        return time, curve
+    edges = np.linspace(0, len(time), most // 2 + 1).astype(int)
+    kept = [0, len(time) - 1]
+    for low, high in zip(edges[:-1], edges[1:], strict=True):
+        part = curve[low:high]
+        if np.isfinite(part).any():
+            kept += [low + int(np.nanargmin(part)), low + int(np.nanargmax(part))]
+    chosen = np.unique(kept)
+    return time[chosen], curve[chosen]

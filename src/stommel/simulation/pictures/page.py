@@ -1,0 +1,112 @@
+"""One self-contained web page with linked, zoomable curves of a mission; it loads nothing from a network."""
+
+import base64
+import json
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from stommel.control.dive_cycle import PHASES
+from stommel.simulation.parameters import CONSUMERS
+from stommel.simulation.pictures.extracts import positions, unbroken, values
+
+Array = NDArray[np.float64]
+
+MOST_ROWS = 40_000
+"""Rows in the page; of a longer record every so many."""
+
+_MILLI, _WATT_HOUR = 1e3, 1.0 / 3600.0
+
+
+def interactive_page(dataset: xr.Dataset) -> str:
+    """Make the page: drag or turn the wheel to zoom, double click for all, point to read values off every curve."""
+    every = -(-dataset.sizes["time"] // MOST_ROWS)
+    part = dataset.isel(time=slice(None, None, every))
+    data = {
+        "start_ms": float(dataset["time"].values[0].astype("datetime64[ms]").astype(float)),
+        "time": _encoded((part["time"].values - part["time"].values[0]) / np.timedelta64(1, "ns") / 1e9),
+        "phase": _encoded(part["phase"].values),
+        "phases": list(PHASES),
+        "panels": _panels(part),
+        "track": dict(zip(("east", "north"), map(_encoded, positions(part)), strict=True)),
+        "surfacings": _surfacings(dataset),
+    }
+    note = "all rows" if every == 1 else f"every {every}th row; the NetCDF file has them all"
+    template = files("stommel.simulation.pictures").joinpath("page.html").read_text(encoding="utf-8")
+    # "</" inside a script would end it
+    filled = {
+        "TITLE": escape(str(dataset.attrs["title"])),
+        "SUBTITLE": escape(f"{dataset.attrs['summary']}. Outcome: {dataset.attrs['outcome']}. Shown: {note}."),
+        "DATA": json.dumps(data, allow_nan=False).replace("</", "<\\/"),
+    }
+    for key, text in filled.items():
+        template = template.replace(f"@@{key}@@", text)
+    return template
+
+
+def _encoded(curve: Any) -> str:
+    """Little-endian floats in base64."""
+    return base64.b64encode(np.asarray(curve, dtype="<f4").tobytes()).decode("ascii")
+
+
+def _panels(part: xr.Dataset) -> list[dict[str, Any]]:
+    speed = np.sqrt(sum(values(part, name) ** 2 for name in ("surge", "sway", "heave")))
+    true = unbroken(values(part, "heading"))
+    measured = true + (values(part, "measured_heading") - true + 180.0) % 360.0 - 180.0
+    return [
+        _panel("Depth", "m", [("vehicle", values(part, "depth")), ("bottom", values(part, "bottom_depth"))], down=True),
+        _panel("Pitch and roll", "deg", [("pitch", values(part, "pitch")), ("roll", values(part, "roll"))]),
+        _panel("Heading", "deg", [("true", true), ("measured", measured)]),
+        _panel("Ballast volume", "ml", [("ballast", values(part, "ballast_volume"))]),
+        _panel("Moving mass", "mm", [("position", _MILLI * values(part, "moving_mass_position"))]),
+        _panel(
+            "Steering",
+            "deg",
+            [("rudder", values(part, "rudder_angle")), ("rolling mass", values(part, "roll_mass_angle"))],
+        ),
+        _panel("Speed through the water", "m/s", [("speed", speed)]),
+        _panel("Current", "m/s", [("east", values(part, "current_east")), ("north", values(part, "current_north"))]),
+        _panel("Temperature", "°C", [("in situ", values(part, "temperature"))]),
+        _panel("Density", "kg/m³", [("in situ", values(part, "density"))]),
+        _panel(
+            "Energy from the battery",
+            "Wh",
+            [(name.replace("_", " "), _WATT_HOUR * values(part, f"energy_{name}")) for name in CONSUMERS],
+        ),
+    ]
+
+
+def _panel(title: str, unit: str, curves: list[tuple[str, Array]], *, down: bool = False) -> dict[str, Any]:
+    """One panel; curves without any number are left out, and second curves that are zero throughout."""
+    kept = [
+        (name, curve)
+        for k, (name, curve) in enumerate(curves)
+        if np.isfinite(curve).any() and (k == 0 or np.any(curve[np.isfinite(curve)] != 0.0))
+    ]
+    return {
+        "title": title,
+        "unit": unit,
+        "down": down,
+        "curves": [{"name": name, "values": _encoded(curve)} for name, curve in kept],
+    }
+
+
+def _surfacings(dataset: xr.Dataset) -> dict[str, str]:
+    """Places of the surfacings on the plane of the track [km]."""
+    if not dataset.sizes["surfacing"]:
+        return {"east": "", "north": ""}
+    places = xr.Dataset(
+        {
+            "latitude": ("p", np.concatenate([dataset["latitude"].values[:1], dataset["surfacing_latitude"].values])),
+            "longitude": (
+                "p",
+                np.concatenate([dataset["longitude"].values[:1], dataset["surfacing_longitude"].values]),
+            ),
+        }
+    )
+    east, north = positions(places)
+    return {"east": _encoded(east[1:]), "north": _encoded(north[1:])}

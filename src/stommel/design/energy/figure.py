@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOST_ASSUMPTIONS = 14
+LABEL_WIDTH = 36
 _PART_COLOURS = {
     "actuators": BLUE, "controller": VERMILION, "sensors": GREEN, "navigation": PURPLE, "communication": ORANGE,
     "hotel": MUTED, "battery": SKY,
@@ -96,9 +97,10 @@ def _draw_tornado(axes: "Axes", study: EnergyStudy) -> None:
 def _label(one: Sensitivity) -> str:
     a = one.assumption
     unit = {"1": "", "degrees": "°", "deg C": " °C"}.get(a.unit, f" {a.unit}")
-    what = textwrap.fill(a.what, 36)
     ends = f"{one.low:.3g} to {one.high:.3g}{unit}".replace("-", "−")
-    return f"{what}\n{ends}"
+    if len(a.what) <= LABEL_WIDTH:
+        return f"{a.what}\n{ends}"
+    return textwrap.fill(f"{a.what} {ends}", LABEL_WIDTH + 4)
 
 
 def _draw_speeds(left: "Axes", right: "Axes", study: EnergyStudy) -> None:

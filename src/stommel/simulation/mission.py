@@ -169,6 +169,11 @@ def _check(mission: Mission) -> None:
         except StommelError as error:
             text = f"{key} = ({place.latitude_deg:g}, {place.longitude_deg:g}): {error}"
             wrong.append(Problem(origin, key, text))
+    if not wrong:
+        bottom = mission.ocean.bottom_depth(plan.start.latitude_deg, plan.start.longitude_deg)
+        if plan.dives.depth_m > bottom:
+            text = f"dives.depth_m = {plan.dives.depth_m:g}: below the bottom at the start, {bottom:.4g} m"
+            wrong.append(Problem(origin, "dives.depth_m", text))
     if wrong:
         raise FileError(wrong)
 

@@ -149,7 +149,7 @@ def netcdf_bytes(dataset: "xr.Dataset") -> bytes:
 
     try:
         file = netCDF4.Dataset("mission.nc", mode="w", format="NETCDF4", memory=1)
-        store = NetCDF4DataStore(file)
+        store = NetCDF4DataStore(file)  # type: ignore[no-untyped-call]  # xarray
         dataset.dump_to_store(store, encoding={str(name): _encoding(dataset, str(name)) for name in dataset.variables})
         content: memoryview = file.close()
     except (OSError, RuntimeError) as error:

@@ -1,5 +1,6 @@
 """What the actuators did in the first dives: oil, moving mass, rudder or rolling mass, and the angles that follow."""
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -53,5 +54,5 @@ def actuators_figure(dataset: xr.Dataset) -> "Figure":
 def _phases(axes: "Axes", phase: np.ndarray, time: np.ndarray) -> None:
     changes = np.flatnonzero(np.diff(phase)) + 1
     edges = np.concatenate([[0], changes, [len(phase) - 1]])
-    for low, high in zip(edges[:-1], edges[1:], strict=True):
+    for low, high in pairwise(edges):
         axes.axvspan(time[low], time[high], color=_SHADES[PHASES[int(phase[low])]], linewidth=0)

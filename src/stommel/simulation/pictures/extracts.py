@@ -1,5 +1,7 @@
 """Parts of a mission's Dataset that pictures need: time in fitting units, the first dives, thinned curves."""
 
+from itertools import pairwise
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -72,7 +74,7 @@ def thinned(time: Array, curve: Array, most: int) -> tuple[Array, Array]:
         return time, curve
     edges = np.linspace(0, len(time), most // 2 + 1).astype(int)
     kept = [0, len(time) - 1]
-    for low, high in zip(edges[:-1], edges[1:], strict=True):
+    for low, high in pairwise(edges):
         part = curve[low:high]
         if np.isfinite(part).any():
             kept += [low + int(np.nanargmin(part)), low + int(np.nanargmax(part))]

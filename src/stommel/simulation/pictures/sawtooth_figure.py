@@ -26,7 +26,7 @@ def sawtooth_figure(dataset: xr.Dataset) -> "Figure":
     figure = new_figure(9.4, 4.2 if whole else 7.4)
     figure.suptitle(f"{dataset.attrs['title']}: sawtooth over density, from {date(dataset)}", fontsize=9.5, x=0.012,
                     ha="left")  # fmt: skip
-    panels = np.atleast_1d(figure.subplots(1 if whole else 2, 1))
+    panels = figure.subplots(1 if whole else 2, 1, squeeze=False).ravel()
     density = values(dataset, "density")
     limits = (float(np.nanmin(density)), max(float(np.nanmax(density)), float(np.nanmin(density)) + 0.1))
     spans = [float(time[-1])] if whole else [float(time[-1]), _LONGEST_SAWTOOTH / 3.0]

@@ -6,6 +6,7 @@ import xarray as xr
 
 from stommel.design.plots.style import BLUE, GREEN, MUTED, PURPLE, VERMILION, new_figure, styled
 from stommel.simulation.pictures.extracts import (
+    Array,
     date,
     first_dives,
     fitting_unit,
@@ -42,7 +43,7 @@ def trial_figure(dataset: xr.Dataset) -> "Figure":
     return figure
 
 
-def _attitude(axes: "Axes", part: xr.Dataset, time: object) -> None:
+def _attitude(axes: "Axes", part: xr.Dataset, time: Array) -> None:
     """Measured angles strong, true ones thin above them: the difference is the sensors'."""
     heading = unbroken(values(part, "measured_heading"))
     true = heading + (values(part, "heading") - heading + 180.0) % 360.0 - 180.0

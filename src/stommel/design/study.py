@@ -35,6 +35,8 @@ from stommel.analysis import (
     turn,
 )
 from stommel.design.bench.speed_study import SpeedStudy, speed_study
+from stommel.design.budget import BudgetStudy, budget_study
+from stommel.design.drives import DriveStudy, drive_study
 from stommel.design.energy import EnergyStudy, energy_study
 from stommel.design.engine.study import EngineStudy, engine_study
 from stommel.design.hull.study import HullStudy, hull_study
@@ -102,6 +104,10 @@ class DesignStudy:
     """Energy of a dive, endurance, best dives and sensitivities at the specification's dive."""
     motor_speed: SpeedStudy | None
     """Motor speeds of the buoyancy engine compared by its model."""
+    drives: DriveStudy | None
+    """Drives of moving mass and rudder."""
+    budget: BudgetStudy | None
+    """Masses and volumes of the parts, in the reference water."""
     numbers: tuple[tuple[str, object, Provenance], ...]
     """Every number of the vehicle file with its origin."""
     notes: tuple[str, ...]
@@ -174,6 +180,8 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
     oil = ask("buoyancy engine", lambda: engine_study(vehicle))
     energy = ask("endurance", lambda: energy_study(vehicle, physics=physics))
     motor_speed = ask("motor speed", lambda: speed_study(vehicle))
+    drives = ask("drives", lambda: drive_study(vehicle))
+    budget = ask("budget", lambda: budget_study(vehicle))
     return DesignStudy(
         vehicle=vehicle,
         physics=physics,
@@ -192,6 +200,8 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
         engine=oil,
         energy=energy,
         motor_speed=motor_speed,
+        drives=drives,
+        budget=budget,
         numbers=tuple(stated_numbers(vehicle)),
         notes=vehicle.description.notes,
         unanswered=tuple(unanswered),

@@ -4,6 +4,8 @@ import re
 from typing import TYPE_CHECKING
 
 from stommel.design.bench.performance_plot import performance_figure
+from stommel.design.budget.figure import budget_figure
+from stommel.design.drives.figure import drives_figure
 from stommel.design.energy.figure import endurance_figure
 from stommel.design.engine.engine_plot import engine_figure
 from stommel.design.hull.plot import hull_figure
@@ -67,6 +69,12 @@ def figures(study: DesignStudy) -> dict[str, "Markup"]:
         speed = study.motor_speed
         drawn = performance_figure(speed.points, generated=True, engine=speed.engine, choice=speed.choice)
         found["motor-speed"] = inline_svg(drawn, "motorspeed", "Current and consumption against motor speed")
+    if study.drives is not None:
+        drawn = drives_figure(study.drives)
+        found["drives"] = inline_svg(drawn, "drives", "Moving mass against pitch, rudder against angle")
+    if study.budget is not None:
+        drawn = budget_figure(study.budget)
+        found["budget"] = inline_svg(drawn, "budget", "Masses and volumes along the hull")
     for k, locus in enumerate(study.loci):
         drawn = root_locus_figure(locus, modes=study.modes)
         found[f"locus-{k}"] = inline_svg(drawn, f"locus{k}", f"Root locus over {locus.over}")

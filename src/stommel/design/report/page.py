@@ -101,6 +101,8 @@ def _context(study: DesignStudy) -> dict[str, Any]:
                 "buoyancy engine",
                 "endurance",
                 "motor speed",
+                "drives",
+                "budget",
             )
         },
         "energy_assumptions": MODEL_ASSUMPTIONS,

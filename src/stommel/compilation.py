@@ -4,57 +4,13 @@ The compiler may fuse a multiplication with an addition (`contract`), as C compi
 one machine and one seed give the same bytes. Division by zero follows IEEE 754, as in NumPy.
 """
 
-import hashlib
 import os
-import tempfile
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 import numba
 
-_COMPILED_PACKAGES = ("analysis", "control", "dynamics", "ocean", "seawater", "simulation")
-"""Where compiled functions and what they call live."""
-
-_KEPT_CACHES = 8
-"""Machine code of this many states of the source is kept: the newest."""
-
-
-def _keep_machine_code() -> None:
-    """Give every state of the source a cache folder of its own.
-
-    Numba looks only at the file of the function it caches, not at what that function calls: after an edit, or an
-    update, it would run old physics. A folder named by the hash of the sources cannot. It lies in the user's cache,
-    so that a read-only installation works too; NUMBA_CACHE_DIR is respected.
-    """
-    if os.environ.get("NUMBA_CACHE_DIR"):
-        return
-    package = Path(__file__).parent
-    digest = hashlib.sha256()
-    sources = (source for name in _COMPILED_PACKAGES for source in (package / name).rglob("*.py"))
-    for source in sorted(sources):
-        digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes())
-    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "stommel"
-    folder = home / digest.hexdigest()[:16]
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        folder.touch()
-        _forget_old(home)
-    except OSError:
-        folder = Path(tempfile.gettempdir()) / f"stommel-{os.getuid()}" / folder.name
-        folder.mkdir(parents=True, exist_ok=True)
-    numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]  # set from NUMBA_CACHE_DIR at run time
-
-
-def _forget_old(home: Path) -> None:
-    import shutil  # noqa: PLC0415 - seldom needed
-
-    caches = sorted((entry for entry in home.iterdir() if entry.is_dir()), key=lambda entry: -entry.stat().st_mtime)
-    for old in caches[_KEPT_CACHES:]:
-        shutil.rmtree(old, ignore_errors=True)
-
-
-_keep_machine_code()
+from stommel.machine_code import folder_of
 
 _Arguments = ParamSpec("_Arguments")
 _Result = TypeVar("_Result")
@@ -66,7 +22,14 @@ def compiled(function: Callable[_Arguments, _Result]) -> Callable[_Arguments, _R
     The same source serves real and complex arguments: a complex step through it gives exact derivatives.
     """
     decorate: Any = numba.njit(cache=True, error_model="numpy", fastmath={"contract"})
-    decorated: Callable[_Arguments, _Result] = decorate(function)
+    config: Any = numba.config
+    before = config.CACHE_DIR
+    if not os.environ.get("NUMBA_CACHE_DIR"):
+        config.CACHE_DIR = str(folder_of(function.__module__.split(".")[1]))
+    try:
+        decorated: Callable[_Arguments, _Result] = decorate(function)
+    finally:
+        config.CACHE_DIR = before
     return decorated
 
 

@@ -13,8 +13,10 @@ from stommel.analysis.limits import Excess, Reason, UnreachableFlightError
 from stommel.analysis.linearization import Linearization, LinearModel, linearise
 from stommel.analysis.modes import Mode, Modes, modes
 from stommel.analysis.performance import BestConditions, best_conditions
+from stommel.analysis.request import RequestError
 from stommel.analysis.root_locus import RootLocus, root_locus
-from stommel.analysis.trim import RequestError, TrimRow, steady_flight, trim, trim_table, turn
+from stommel.analysis.trim import TrimRow, steady_flight, trim, trim_table
+from stommel.analysis.turn import turn
 
 __all__ = [
     "Authority",

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from stommel.analysis.flight import SteadyFlight, flight_from
 from stommel.analysis.limits import reachable
+from stommel.analysis.request import RequestError
 from stommel.analysis.steady_equations import ALPHA, CONVERGED, QUANTITIES, R_PX
-from stommel.analysis.trim import RequestError, trim
+from stommel.analysis.trim import trim
 from stommel.analysis.wings_level import trim_at_ballast
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import Water

@@ -7,8 +7,8 @@ import numpy as np
 
 from stommel.analysis.flight import SteadyFlight, flight_from
 from stommel.analysis.limits import Reason, UnreachableFlightError
+from stommel.analysis.request import RequestError
 from stommel.analysis.steady_equations import CONVERGED, QUANTITIES
-from stommel.analysis.trim import RequestError
 from stommel.analysis.wings_level import trim_at_incidence
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import Water

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from stommel.analysis.authority import Authority, authority
 from stommel.analysis.linearization import Linearization, linearise
-from stommel.analysis.trim import RequestError, trim
+from stommel.analysis.request import RequestError
+from stommel.analysis.trim import trim
 from stommel.errors import StommelError
 from stommel.vehicle import PAPER, Physics, Vehicle
 from stommel.vehicle.messages import unit_of

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite, radians
-from typing import Literal
 
 import numpy as np
 
@@ -15,19 +14,13 @@ from stommel.analysis.limits import (
     excesses,
     nearest_reachable,
 )
-from stommel.analysis.steady_equations import CONVERGED, DELTA_R, MU, QUANTITIES
-from stommel.analysis.turning import turn_into, turn_of_settings
+from stommel.analysis.request import RequestError, check_angle, check_speed
+from stommel.analysis.steady_equations import CONVERGED, QUANTITIES
+from stommel.analysis.turning import turn_of_settings
 from stommel.analysis.wings_level import TOO_SHALLOW, flight_of_settings, trim_into
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import Water
-from stommel.errors import StommelError
 from stommel.vehicle import PAPER, Physics, Vehicle
-
-Steering = Literal["rudder", "roll"]
-
-
-class RequestError(StommelError):
-    """A question with an impossible or missing number in it."""
 
 
 def trim(
@@ -70,8 +63,8 @@ def trim(
     angle_deg = glide_path_deg if pitch_deg is None else pitch_deg
     assert angle_deg is not None
     name = "glide path" if along_path else "pitch"
-    _check_speed(speed_m_s)
-    _check_angle(name, angle_deg)
+    check_speed(speed_m_s)
+    check_angle(name, angle_deg)
     water = water or reference_water(vehicle)
     record = pack(vehicle, physics)
     z = np.zeros(QUANTITIES)
@@ -176,102 +169,9 @@ def steady_flight(
     return flight
 
 
-def turn(
-    vehicle: Vehicle,
-    *,
-    speed_m_s: float,
-    pitch_deg: float,
-    turn_rate_rad_s: float | None = None,
-    radius_m: float | None = None,
-    by: Steering | None = None,
-    physics: Physics = PAPER,
-    water: Water | None = None,
-    within_limits: bool = True,
-) -> SteadyFlight:
-    """Find the settings of a wanted turn.
-
-    Parameters
-    ----------
-    turn_rate_rad_s, radius_m
-        Exactly one of them; positive to starboard.
-    by
-        What steers: the rudder or the rolling mass; the one that the vehicle has if left out, the rudder if it has
-        both.
-
-    Raises
-    ------
-    RequestError
-        A number is impossible, or the vehicle lacks the actuator.
-    LateralPlaneUnknownError
-        The vehicle's lateral coefficients are unknown.
-    UnreachableFlightError
-        No such turn, or settings beyond the limits of the vehicle file; with the tightest turn that works.
-    """
-    if (turn_rate_rad_s is None) == (radius_m is None):
-        raise RequestError("give either a turn rate or a radius, not both and not neither")
-    wanted = turn_rate_rad_s if radius_m is None else radius_m
-    assert wanted is not None
-    name, unit = ("turn rate", "rad/s") if radius_m is None else ("radius", "m")
-    if not isfinite(wanted) or wanted == 0.0:
-        raise RequestError(f"{name} = {wanted} {unit}: must be a finite number other than zero")
-    _check_speed(speed_m_s)
-    _check_angle("pitch", pitch_deg)
-    vehicle.require_lateral("turning flight")
-    steering = _steering(vehicle, by)
-    water = water or reference_water(vehicle)
-
-    def at(share: float) -> tuple[SteadyFlight | None, tuple[Excess, ...]]:
-        """The turn at a share of what is wanted: of the turn rate, or of the curvature."""
-        z = np.zeros(QUANTITIES)
-        rate, curvature = (share * wanted, 0.0) if radius_m is None else (0.0, share / wanted)
-        record = pack(vehicle, physics)
-        code = turn_into(record, float(speed_m_s), radians(pitch_deg), rate, curvature, steering, water, z)
-        flight = flight_from(record, z, water) if code == CONVERGED else None
-        return flight, excesses(vehicle, flight) if flight is not None and within_limits else ()
-
-    flight, broken = at(1.0)
-    if flight is not None and not broken:
-        return flight
-    asked = f"speed {speed_m_s:g} m/s at pitch {pitch_deg:g} deg with {name} {wanted:g} {unit}"
-    reason = str(broken[0]) if broken else "no steady turn so tight"
-    low, high = 0.0, 1.0
-    tightest: SteadyFlight | None = None
-    for _ in range(40):
-        middle = 0.5 * (low + high)
-        trial, beyond = at(middle)
-        if trial is not None and not beyond:
-            low, tightest = middle, trial
-        else:
-            high = middle
-    message = f"{asked} is not reachable: {reason}"
-    if tightest is None:
-        # not even straight: say why
-        trim(vehicle, speed_m_s=speed_m_s, pitch_deg=pitch_deg, physics=physics, water=water)
-    else:
-        message += (
-            f"; nearest reachable: turn rate {tightest.turn_rate:.5g} rad/s, radius {tightest.radius:.4g} m "
-            f"at the same speed and pitch"
-        )
-    reasons = tuple(excess.reason for excess in broken) or (Reason.NO_EQUILIBRIUM,)
-    raise UnreachableFlightError(message, reasons)
-
-
 def _unreachable(wanted: str, broken: tuple[Excess, ...], nearest: SteadyFlight | None) -> UnreachableFlightError:
     reasons = tuple(excess.reason for excess in broken)
     return UnreachableFlightError(f"{wanted}: {'; '.join(map(str, broken))}", reasons, nearest)
-
-
-def _check_speed(speed_m_s: float) -> None:
-    if not (isfinite(speed_m_s) and 0.0 < speed_m_s <= 10.0):
-        raise RequestError(f"speed = {speed_m_s:g} m/s: must be greater than 0 and at most 10 m/s")
-
-
-def _check_angle(name: str, angle_deg: float) -> None:
-    if not abs(angle_deg) < 90.0:
-        raise RequestError(
-            f"{name} = {angle_deg:g} deg: must be between -90 and 90 deg, both excluded: "
-            "straight up or down the moving mass has no lever"
-        )
 
 
 def _check_steering(vehicle: Vehicle, rudder_deg: float, roll_mass_deg: float) -> None:
@@ -280,14 +180,3 @@ def _check_steering(vehicle: Vehicle, rudder_deg: float, roll_mass_deg: float) -
         raise RequestError(f"{vehicle.name} has no rudder; its file has no table [rudder]")
     if roll_mass_deg and d.moving_mass.offset_m == 0.0:
         raise RequestError(f"{vehicle.name} cannot roll its moving mass: moving_mass.offset_m is 0")
-
-
-def _steering(vehicle: Vehicle, by: Steering | None) -> int:
-    d = vehicle.description
-    if by is None:
-        by = "rudder" if d.rudder is not None else "roll"
-    if by == "rudder" and d.rudder is None:
-        raise RequestError(f"{vehicle.name} has no rudder; its file has no table [rudder]")
-    if by == "roll" and (d.moving_mass.offset_m == 0.0 or d.actuators.roll is None):
-        raise RequestError(f"{vehicle.name} can steer neither by rudder nor by rolling its moving mass")
-    return DELTA_R if by == "rudder" else MU

@@ -48,7 +48,7 @@ def turn(
 
     Example: stommel turn seawing --speed 0.4 --pitch -30 --turn-rate 0.005
     """
-    from stommel.analysis.trim import turn as solve
+    from stommel.analysis.turn import turn as solve
 
     glider = load(vehicle)
     flight = solve(

@@ -1,0 +1,24 @@
+"""What every question about steady flight checks before anything is computed."""
+
+from math import isfinite
+
+from stommel.errors import StommelError
+
+
+class RequestError(StommelError):
+    """A question with an impossible or missing number in it."""
+
+
+def check_speed(speed_m_s: float) -> None:
+    """Refuse a speed that no glider has."""
+    if not (isfinite(speed_m_s) and 0.0 < speed_m_s <= 10.0):
+        raise RequestError(f"speed = {speed_m_s:g} m/s: must be greater than 0 and at most 10 m/s")
+
+
+def check_angle(name: str, angle_deg: float) -> None:
+    """Refuse an angle at which the moving mass has no lever."""
+    if not abs(angle_deg) < 90.0:
+        raise RequestError(
+            f"{name} = {angle_deg:g} deg: must be between -90 and 90 deg, both excluded: "
+            "straight up or down the moving mass has no lever"
+        )

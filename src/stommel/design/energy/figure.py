@@ -80,7 +80,7 @@ def _draw_tornado(axes: "Axes", study: EnergyStudy) -> None:
             if days is not None:
                 axes.barh(row, days - here, left=here, color=colour, height=0.66, gid="tornado")
     axes.axvline(here, color=INK, linewidth=1.0)
-    axes.set_xlim(here - 0.62 * widest, here + 0.85 * widest)
+    axes.set_xlim(here - 0.62 * widest, here + 1.0 * widest)
     axes.set_yticks(range(len(chosen)), [_label(one) for one in chosen], fontsize=7.9)
     axes.tick_params(axis="y", length=0)
     axes.grid(visible=False, axis="y")

@@ -20,6 +20,7 @@ from stommel.cli import (
     root_locus,
     simulate,
     steady,
+    study,
     table,
     trim,
     turn,
@@ -68,6 +69,7 @@ app.command("engine")(engine.engine)
 app.command("endurance")(endurance.endurance)
 app.command("budget")(budget.budget)
 app.command("simulate")(simulate.simulate)
+app.command("study")(study.study)
 app.command("vehicles")(vehicles.vehicles)
 app.add_typer(vehicles.vehicle_app, name="vehicle")
 app.add_typer(bench.bench_app, name="bench")

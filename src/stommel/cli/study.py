@@ -1,0 +1,175 @@
+"""`stommel study`: many missions, over any field of vehicle, mission, ocean and sensors."""
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from stommel.cli.options import JsonOption
+from stommel.cli.output import show_json, show_table
+
+if TYPE_CHECKING:
+    from stommel.simulation.studies.run import Finished
+
+_SHOWN = 12
+"""Outputs in the table of sensitivities; all are in the result and in --json."""
+
+
+def study(
+    file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="Which mission, what to change, how many runs.")],
+    output: Annotated[
+        Path | None, typer.Option("--output", help="Result, .nc or .zarr; STUDY.nc beside you if left out.")
+    ] = None,
+    workers: Annotated[int | None, typer.Option("--workers", help="Processes; all cores if left out.")] = None,
+    scheduler: Annotated[
+        str | None, typer.Option("--scheduler", help="Fly on a Dask cluster instead, such as tcp://host:8786.")
+    ] = None,
+    restart: Annotated[bool, typer.Option("--restart", help="Forget finished runs and fly all anew.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Fly a sweep, a Latin hypercube, a Monte Carlo or a Sobol study of missions.
+
+    Interrupted or killed, the same command goes on where it stopped. The result does not depend on the workers.
+
+    Example: stommel study drift.toml --output drift.nc
+    """
+    from stommel.simulation.studies.errors import StudyInterruptedError
+    from stommel.simulation.studies.run import run_study
+    from stommel.simulation.studies.study import load_study
+
+    loaded = load_study(file)
+    target = output if output is not None else Path(f"{file.stem}.nc")
+    try:
+        with _progress() as progress:
+            done = run_study(loaded, target, workers=workers, scheduler=scheduler, restart=restart, progress=progress)
+    except StudyInterruptedError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(130) from None
+    if as_json:
+        show_json(_as_json(done, target))
+    else:
+        _show(done, target)
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[int, int], None]]:
+    """Bar with an estimate on the error output; silent where nobody watches."""
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    console = Console(stderr=True)
+    columns = (
+        TextColumn("missions"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
+        task = bar.add_task("missions", total=None)
+        yield lambda finished, runs: bar.update(task, completed=finished, total=runs)
+
+
+def _statistics(done: "Finished") -> dict[str, dict[str, float]]:
+    """Mean, standard deviation and extremes of every output over the runs that were flown."""
+    import numpy as np
+
+    found = {}
+    for name, values in done.outputs.items():
+        flown = values[np.isfinite(values)]
+        if len(flown):
+            found[name] = {
+                "mean": float(flown.mean()),
+                "standard_deviation": float(flown.std(ddof=1)) if len(flown) > 1 else 0.0,
+                "least": float(flown.min()),
+                "greatest": float(flown.max()),
+            }
+    return found
+
+
+def _sensitivity(done: "Finished") -> dict[str, dict[str, dict[str, float | None]]]:
+    """Measure, output, parameter."""
+    import numpy as np
+
+    found = done.sensitivity
+    if found is None:
+        return {}
+    return {
+        measure: {
+            name: {
+                parameter: float(value) if np.isfinite(value) else None
+                for parameter, value in zip(found.parameters, row, strict=True)
+            }
+            for name, row in zip(found.outputs, values, strict=True)
+        }
+        for measure, values in found.measures.items()
+    }
+
+
+def _as_json(done: "Finished", target: Path) -> dict[str, Any]:
+    return {
+        "study": done.study.file.name,
+        "kind": done.study.file.kind,
+        "runs": len(done.study.values),
+        "flown": done.flown,
+        "kept": done.kept,
+        "failed": [{"run": run, "reason": reason} for run, reason in done.failures],
+        "output": str(target),
+        "parameters": dict(zip(done.study.names, (p.key for p in done.study.file.parameters), strict=True)),
+        "statistics": _statistics(done),
+        "sensitivity_method": None if done.sensitivity is None else done.sensitivity.method,
+        "sensitivity": _sensitivity(done),
+    }
+
+
+def _show(done: "Finished", target: Path) -> None:
+    runs = len(done.study.values)
+    title = f"{done.study.file.name}: {done.study.file.kind} study of {runs} missions"
+    notes = [f"{count} runs could not be flown: {reason}" for reason, count in _reasons(done).most_common(5)]
+    rows = [
+        [name, *(f"{numbers[key]:.6g}" for key in ("mean", "standard_deviation", "least", "greatest"))]
+        for name, numbers in _statistics(done).items()
+    ]
+    show_table(title, ("output", "mean", "sd", "least", "greatest"), rows, notes)
+    _show_sensitivity(done)
+    typer.echo(f"{done.flown} runs flown, {done.kept} kept from before")
+    typer.echo(f"wrote {target}")
+
+
+def _reasons(done: "Finished") -> Counter[str]:
+    return Counter(reason for _, reason in done.failures)
+
+
+def _show_sensitivity(done: "Finished") -> None:
+    import numpy as np
+
+    found = done.sensitivity
+    if found is None:
+        return
+    measure, title = {
+        "sobol": ("total", "Sobol indices, total: share of the variance that goes with each parameter"),
+        "regression": ("coefficient", "Standardised regression coefficients"),
+    }[found.method]
+    explained = "first orders" if found.method == "sobol" else "R2"
+    changing = [i for i in range(len(found.outputs)) if np.isfinite(found.explained[i])][:_SHOWN]
+    rows = [
+        [
+            found.outputs[i],
+            *(f"{value:.3f}" if np.isfinite(value) else "-" for value in found.measures[measure][i]),
+            f"{found.explained[i]:.3f}",
+        ]
+        for i in changing
+    ]
+    if rows:
+        show_table(title, ("output", *found.parameters, explained), rows)

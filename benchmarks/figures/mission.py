@@ -1,0 +1,96 @@
+"""A mission of 20 days: how long it takes, how much faster than the sea, how much memory, how exact."""
+
+import subprocess
+import sys
+from functools import cache
+from time import perf_counter, process_time
+from typing import Any
+
+import numpy as np
+
+from figures.registry import Measurement, figure
+from stommel.simulation.mission import Flown, Mission, fly_mission, load_mission
+from stommel.simulation.parameters import STATE_COLUMNS
+from stommel.simulation.shipped import mission_path
+from stommel.simulation.summary import summary
+
+NAME = "still_20_days"
+REPEATS = 3
+FINER = 10
+
+_MEMORY = """
+import resource, sys
+from stommel.simulation.mission import fly_mission, load_mission
+from stommel.simulation.results import dataset_of, write_netcdf
+from stommel.simulation.shipped import mission_path
+flown = fly_mission(load_mission(mission_path(sys.argv[1])))
+dataset_of(flown)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+"""
+
+
+@cache
+def _timed() -> tuple[Mission, Flown, list[tuple[float, float]]]:
+    """Fly once to compile and then for the clock: wall and process time of each [s]."""
+    mission = load_mission(mission_path(NAME))
+    flown = fly_mission(mission)
+    times = []
+    for _ in range(REPEATS):
+        wall, process = perf_counter(), process_time()
+        flown = fly_mission(mission)
+        times.append((perf_counter() - wall, process_time() - process))
+    return mission, flown, times
+
+
+@cache
+def _error() -> dict[str, Any]:
+    """Difference to the same mission with ten times smaller steps."""
+    mission, flown, _ = _timed()
+    cut = mission.plan.integration
+    finer = cut.model_copy(update={"steady_steps": FINER * cut.steady_steps, "moving_steps": FINER * cut.moving_steps})
+    exact = fly_mission(Mission(mission.plan.model_copy(update={"integration": finer}), mission.vehicle,
+                                mission.ocean, mission.origin, mission.document))  # fmt: skip
+    k = STATE_COLUMNS.index("depth")
+    rows = min(len(exact.record), len(flown.record))
+    apart = np.abs(exact.record[:rows, k] - flown.record[:rows, k])
+    made_good = [summary(one)["distance_made_good_km"] for one in (flown, exact)]
+    return {
+        "depth_error_m": float(apart.max()),
+        "depth_error_rms_m": float(np.sqrt(np.mean(apart**2))),
+        "distance_error_percent": 100.0 * abs(made_good[0] / made_good[1] - 1.0),
+        "against": f"{FINER} times smaller integration steps, {len(exact.record)} rows of output",
+    }
+
+
+@figure(unit="s", bar=2.0)
+def mission_20d_s() -> Measurement:
+    """Measure 20 days to 200 m with output every 10 s, on one core after compilation [s of processor time]."""
+    _, flown, times = _timed()
+    wall, process = zip(*times, strict=True)
+    detail = {
+        "wall_s": min(wall),
+        "process_s": min(process),
+        "repeats": REPEATS,
+        "outcome": flown.outcome,
+        "dives": summary(flown)["dives"],
+    }
+    return Measurement(min(process), detail | _error())
+
+
+@figure(unit="x", bar=864000.0, at_least=True)
+def mission_20d_speed_up() -> Measurement:
+    """Measure simulated time over processor time of the same mission; the bar is 20 days in 2 s."""
+    mission, _, times = _timed()
+    simulated = mission.plan.duration_days * 86400.0
+    return Measurement(
+        simulated / min(process for _, process in times), {"by_wall": simulated / min(wall for wall, _ in times)}
+    )
+
+
+@figure(unit="MB", bar=500.0)
+def mission_20d_peak_mb() -> Measurement:
+    """Measure the greatest memory of a process that flies the same mission and describes it as a Dataset [MB]."""
+    _timed()  # machine code of the process below comes from the cache
+    command = [sys.executable, "-c", _MEMORY, NAME]
+    found = subprocess.run(command, capture_output=True, text=True, check=True)
+    return Measurement(float(found.stdout))

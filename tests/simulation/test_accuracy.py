@@ -6,7 +6,6 @@ import pytest
 from stommel.simulation.mission import Flown
 from stommel.simulation.parameters import STATE_COLUMNS, SURFACING_COLUMNS
 from stommel.simulation.summary import summary
-
 from tests.simulation.conftest import QUIET, flown
 
 EAST, NORTH = 0.15, -0.08

@@ -10,7 +10,6 @@ import pytest
 
 from stommel.simulation import mission as mission_module
 from stommel.simulation.mission import Flown
-
 from tests.simulation.conftest import file_of, flown
 
 

@@ -10,7 +10,6 @@ from stommel.control.dive_cycle import ASCENT, DESCENT
 from stommel.simulation.mission import Flown
 from stommel.simulation.parameters import STATE_COLUMNS
 from stommel.vehicle import PAPER
-
 from tests.simulation.conftest import QUIET, flown
 
 SPEED, PITCH = 0.4, 35.0

@@ -1,10 +1,10 @@
 """The pool trial of section 5.2: the compass drifts by about 35 deg, the vehicle does not; shielding ends it."""
 
+import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
-import tomllib
 
 from stommel.simulation.mission import Flown, fly_mission, mission_from
 from stommel.simulation.parameters import STATE_COLUMNS

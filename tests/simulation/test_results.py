@@ -12,7 +12,6 @@ import xarray as xr
 from stommel.errors import OutputError
 from stommel.simulation.mission import Flown
 from stommel.simulation.results import dataset_of, write_netcdf
-
 from tests.simulation.conftest import made
 
 

@@ -10,11 +10,10 @@ from pydantic_core import ErrorDetails
 _UNITS = {
     "mn_m_a": "mN m/A", "n_m_s": "N m s", "n_s_m": "N s/m", "n_m": "N m", "g_cm2": "g cm2", "ml_r": "ml/r",
     "ml_s_mpa": "ml/(s MPa)", "mpa_s_ml": "MPa s/ml", "mpa_s2_ml2": "MPa s2/ml2", "mpa_ml": "MPa/ml", "rpm": "r/min",
-    "ohm": "ohm", "a": "A", "n": "N",
-    "coupling_kg_m": "kg m", "kg_m2": "kg m2", "kg_m3": "kg/m3", "kg_m": "kg/m", "kg_s": "kg s", "m_s2": "m/s2",
-    "m_s": "m/s", "mm_s": "mm/s", "ml_s": "ml/s", "deg_s": "deg/s", "per_pa": "1/Pa", "per_k": "1/K", "days": "days",
-    "kg": "kg", "mpa": "MPa", "mm": "mm", "ml": "ml", "deg": "degrees", "ah": "A h", "v": "V", "c": "deg C", "m": "m",
-    "w": "W", "j": "J", "s": "s", "mnm_a": "mN m/A", "mnm": "mN m", "g_cm2": "g cm2", "ohm": "ohm", "ms": "ms", "a": "A",
+    "ohm": "ohm", "a": "A", "n": "N", "coupling_kg_m": "kg m", "kg_m2": "kg m2", "kg_m3": "kg/m3", "kg_m": "kg/m",
+    "kg_s": "kg s", "m_s2": "m/s2", "m_s": "m/s", "mm_s": "mm/s", "ml_s": "ml/s", "deg_s": "deg/s", "per_pa": "1/Pa",
+    "per_k": "1/K", "days": "days", "kg": "kg", "mpa": "MPa", "mm": "mm", "ml": "ml", "deg": "degrees", "ah": "A h",
+    "v": "V", "c": "deg C", "m": "m", "w": "W", "j": "J", "s": "s", "mnm_a": "mN m/A", "mnm": "mN m", "ms": "ms",
 }  # fmt: skip
 
 _RANGES = {

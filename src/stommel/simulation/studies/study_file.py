@@ -3,7 +3,7 @@
 from math import isfinite
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field, field_validator, model_validator
 
 from stommel.vehicle.schema.fields import Finite, Positive, Table
 
@@ -13,6 +13,9 @@ Value = float | str | bool
 """What a parameter may be set to."""
 
 MOST_RUNS = 1_000_000
+
+_SPACES = ("vehicle", "mission", "ocean", "sensors")
+"""What a key begins with."""
 
 _OF_DISTRIBUTION = {
     "uniform": ("from", "to"),
@@ -27,7 +30,7 @@ class Parameter(Table):
 
     model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=False)
 
-    key: Annotated[str, Field(pattern=r"^(vehicle|mission|ocean|sensors)\.[^.\s]+(\.[^.\s]+)*$")]
+    key: str
     """vehicle.KEY of the vehicle file, mission.KEY of the mission file, ocean.PARAMETER or sensors.KEY."""
     name: Annotated[str, Field(pattern=r"^[A-Za-z]\w*$")] | None = None
     """Name in the result; the last part of the key if left out."""
@@ -52,6 +55,14 @@ class Parameter(Table):
     """Cuts a distribution off below."""
     at_most: Finite | None = None
     """Cuts a distribution off above."""
+
+    @field_validator("key")
+    @classmethod
+    def _in_a_space(cls, key: str) -> str:
+        space, *rest = key.split(".")
+        if space not in _SPACES or not rest or not all(rest):
+            raise ValueError(f"{key!r}: must be one of {', '.join(f'{name}.KEY' for name in _SPACES)}")
+        return key
 
     def given(self) -> set[str]:
         """Keys of the file that describe values or distribution."""
@@ -122,12 +133,14 @@ class StudyFile(Table):
     """Of the samples and of every run."""
     same_noise: bool = False
     """Every run draws the same sensor noise, so that differences are the parameters' alone."""
-    parameters: Annotated[tuple[Parameter, ...], Field(min_length=1)]
+    parameters: tuple[Parameter, ...]
     outputs: tuple[str, ...] = ()
     """Names of the summary's numbers to keep; all of them if left out."""
 
     @model_validator(mode="after")
     def _is_consistent(self) -> Self:
+        if not self.parameters:
+            raise ValueError("parameters is empty; add a table [[parameters]] with the key to change")
         for parameter in self.parameters:
             if self.kind == SWEEP:
                 parameter.check_sweep()

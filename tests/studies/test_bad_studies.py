@@ -1,0 +1,82 @@
+"""A study that cannot be run is refused with one line that says why, before anything is flown."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.studies.conftest import UNIFORM, Write, refused
+
+SWEEP = 'kind = "sweep"\n[[parameters]]\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            SWEEP + 'key = "mission.dives.depht_m"\nvalues = [1]',
+            ["mission.dives.depht_m", "did you mean mission.dives.depth_m"],
+        ),
+        (SWEEP + 'key = "vehicle.mass"\nvalues = [1]', ["'vehicle.mass'", "zju.toml has no such number"]),
+        (SWEEP + 'key = "ocean.current_m_s"\nvalues = [1]', ["'ocean.current_m_s'", "current_east_m_s"]),
+        (SWEEP + 'key = "sensors.gps_noise"\nvalues = [1]', ["did you mean sensors.gps_noise_m"]),
+        (SWEEP + 'key = "dives.depth_m"\nvalues = [1]', ["parameters.0.key", "dives.depth_m"]),
+        (SWEEP + 'key = "mission.dives.depth_m"\nvalues = []', ["values = []", "at least one value"]),
+        (SWEEP + 'key = "mission.dives.depth_m"\nvalues = [40, "deep"]', ["values", "all numbers"]),
+        (SWEEP + 'key = "mission.dives.pitch_deg"\nvalues = [35, 70]', ["mission.dives.pitch_deg = 70", "60"]),
+        (SWEEP + 'key = "mission.dives.depth_m"\nfrom = 1\nto = 2', ["from, to and steps"]),
+        (SWEEP + 'key = "mission.dives.depth_m"\nvalue = [1]', ["value", "did you mean values"]),
+        ('kind = "sweep"', ["parameters is missing"]),
+        ('kind = "monte_carlo"\n' + UNIFORM, ["runs is missing"]),
+        ('kind = "monte_carlo"\nruns = -3\n' + UNIFORM, ["runs = -3", "at least 1"]),
+        ('kind = "sobol"\nruns = 12\n' + UNIFORM, ["runs = 12", "power of 2", "16"]),
+        ('kind = "guess"\nruns = 3\n' + UNIFORM, ["kind = 'guess'", "latin_hypercube"]),
+        ('kind = "monte_carlo"\nruns = 3\n' + UNIFORM.replace("uniform", "cauchy"), ["'cauchy'", "lognormal"]),
+        ('kind = "monte_carlo"\nruns = 3\n' + UNIFORM.replace("to = 45", ""), ["needs from and to"]),
+        ('kind = "monte_carlo"\nruns = 3\n' + UNIFORM.replace("to = 45", "to = 2"), ["from must be less than to"]),
+        ("kind = ", ["is not valid TOML"]),
+    ],
+)
+def test_refused_with_one_line(folder: Path, write: Write, text: str, words: list[str]) -> None:
+    from stommel.errors import FileError
+    from stommel.simulation.studies.study import load_study
+
+    with pytest.raises(FileError) as caught:
+        load_study(write(text))
+    message = str(caught.value)
+    assert "\n" not in message
+    assert message.startswith(str(folder / "study.toml"))
+    for word in words:
+        assert word in message
+
+
+def test_refused_by_the_command(folder: Path, write: Write) -> None:
+    study = write('kind = "monte_carlo"\nruns = 3\n' + UNIFORM)
+    assert "must end with .nc or .zarr" in refused(folder, study, "--output", "result.csv")
+    assert "--workers 0: must be at least 1" in refused(folder, study, "--workers", 0)
+    assert "missing.toml: cannot be read: No such file" in refused(folder, "missing.toml")
+    nobody = refused(folder, study, "--scheduler", "nonsense://1")
+    assert "--scheduler nonsense://1: cannot be reached" in nobody
+    assert not (folder / "study.nc").exists()
+
+
+def test_scheduler_that_does_not_answer(folder: Path, write: Write) -> None:
+    import threading
+
+    pytest.importorskip("distributed", reason="needs the extra cluster")
+    from stommel.simulation.studies.errors import StudyError
+    from stommel.simulation.studies.running import fly_on_cluster
+    from stommel.simulation.studies.study import load_study
+
+    study = load_study(write('kind = "monte_carlo"\nruns = 3\n' + UNIFORM))
+    flights = fly_on_cluster(
+        study.kit, list(enumerate(study.values)), "tcp://127.0.0.1:1", threading.Event(), patience_s=1.0
+    )
+    with pytest.raises(StudyError, match=r"--scheduler tcp://127\.0\.0\.1:1: cannot be reached"):
+        next(flights)
+
+
+def test_unknown_output_is_found_with_the_first_run(folder: Path, write: Write) -> None:
+    study = write('kind = "monte_carlo"\nruns = 1\noutputs = ["fuel"]\n' + UNIFORM)
+    message = refused(folder, study, "--workers", 1)
+    assert "'fuel'" in message
+    assert "dives" in message

@@ -223,7 +223,7 @@ def fly(
     every_column = max(1, round(loop.column_period / loop.control_step))
     every_guidance = max(1, round(GUIDANCE_PERIOD / loop.control_step))
     cruise = look_up(table, plan.theta, plan.V_b_dive)[2]
-    under_way = guide(software, waypoints, radius, lookahead, cruise)
+    under_way = software.waypoint < len(waypoints)
     for tick in range(first_tick, last_tick):
         t = tick * loop.control_step
         if tick % every_column == 0:

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import stommel
-from stommel.errors import OutputError
 from stommel.files import write_whole
 from stommel.simulation import variables
 from stommel.simulation.mission import Flown
@@ -112,7 +111,7 @@ def _provenance(flown: Flown) -> dict[str, Any]:
         "summary": f"Simulated mission of {mission.vehicle.name} in {mission.ocean.name}",
         "source": f"stommel {stommel.__version__}: eight degrees of freedom, actuators, sensors and control",
         "outcome": flown.outcome,
-        "seed": np.int64(plan.seed),
+        "seed": str(plan.seed),
         "stommel_version": stommel.__version__,
         "mission_file": mission.origin,
         "mission": json.dumps(mission.document, default=str, sort_keys=True),
@@ -126,7 +125,7 @@ def _provenance(flown: Flown) -> dict[str, Any]:
 
 
 def write_netcdf(dataset: "xr.Dataset", path: str | Path) -> None:
-    """Write a mission's Dataset as NetCDF 4, whole or not at all; the same Dataset gives the same bytes.
+    """Write a mission's Dataset as NetCDF, whole or not at all; the same Dataset gives the same bytes.
 
     Raises
     ------
@@ -137,31 +136,20 @@ def write_netcdf(dataset: "xr.Dataset", path: str | Path) -> None:
 
 
 def netcdf_bytes(dataset: "xr.Dataset") -> bytes:
-    """Return the NetCDF 4 file of a mission's Dataset: compressed, times as seconds since 1970-01-01 UTC.
+    """Return the NetCDF file of a mission's Dataset: 64-bit classic, times as seconds since 1970-01-01 UTC.
 
-    Raises
-    ------
-    OutputError
-        The NetCDF library fails.
+    NetCDF 4 would be smaller, but the HDF5 below it stamps the root group with the time of writing: no two files alike.
     """
-    import netCDF4  # noqa: PLC0415 - start-up counts
-    from xarray.backends import NetCDF4DataStore  # noqa: PLC0415
-
-    try:
-        file = netCDF4.Dataset("mission.nc", mode="w", format="NETCDF4", memory=1)
-        store = NetCDF4DataStore(file)  # type: ignore[no-untyped-call]  # xarray
-        dataset.dump_to_store(store, encoding={str(name): _encoding(dataset, str(name)) for name in dataset.variables})
-        content: memoryview = file.close()
-    except (OSError, RuntimeError) as error:
-        raise OutputError(f"NetCDF file cannot be made: {error}") from error
-    return bytes(content)
+    encoding = {str(name): _encoding(dataset, str(name)) for name in dataset.variables}
+    content = dataset.to_netcdf(engine="scipy", format="NETCDF3_64BIT", encoding=encoding)
+    return content if isinstance(content, bytes) else bytes(content)
 
 
 def _encoding(dataset: "xr.Dataset", name: str) -> dict[str, Any]:
     variable = dataset[name].variable
     if variable.ndim == 0:
         return {}
-    packing: dict[str, Any] = {"zlib": True, "complevel": 1, "shuffle": True, "_FillValue": None}
+    packing: dict[str, Any] = {"_FillValue": None}
     if np.issubdtype(variable.dtype, np.datetime64):
         return packing | {"units": "seconds since 1970-01-01T00:00:00Z", "calendar": "standard", "dtype": "f8"}
     if np.issubdtype(variable.dtype, np.floating):

@@ -23,6 +23,5 @@ integrate(record, x, locked, water, False, 0.05, 6000, states)
 for k, state in enumerate(states):
     moving = velocities_of(record, state_from_array(state), locked, water, False)
     pitch = np.degrees(euler_from_quaternion(tuple(state[3:7]))[1])
-    print(
-        f"{30 * (k + 1):4d} s  depth {state[2]:7.2f} m  pitch {pitch:7.2f} deg  speed {np.linalg.norm(moving.v):.4f} m/s"
-    )
+    speed = np.linalg.norm(moving.v)
+    print(f"{30 * (k + 1):4d} s  depth {state[2]:7.2f} m  pitch {pitch:7.2f} deg  speed {speed:.4f} m/s")

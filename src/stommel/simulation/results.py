@@ -142,7 +142,7 @@ def netcdf_bytes(dataset: "xr.Dataset") -> bytes:
     """
     encoding = {str(name): _encoding(dataset, str(name)) for name in dataset.variables}
     content = dataset.to_netcdf(engine="scipy", format="NETCDF3_64BIT", encoding=encoding)
-    return content if isinstance(content, bytes) else bytes(content)
+    return bytes(content)
 
 
 def _encoding(dataset: "xr.Dataset", name: str) -> dict[str, Any]:

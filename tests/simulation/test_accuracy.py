@@ -24,7 +24,7 @@ def test_uniform_current_is_recovered_within_one_percent() -> None:
     # a single dive also carries the turns and the way gathered at its ends
     assert miss.max() < 0.02 * current
     true = found.surfacings[:, first + 2 : first + 4]
-    np.testing.assert_allclose(true, np.tile([NORTH, EAST], (len(true), 1)), rtol=1e-9)
+    np.testing.assert_allclose(true, np.tile([NORTH, EAST], (len(true), 1)), rtol=1e-7)  # the ocean keeps floats
 
 
 @pytest.mark.parametrize(
@@ -37,10 +37,10 @@ def test_uniform_current_is_recovered_within_one_percent() -> None:
 )
 def test_ten_times_smaller_steps_change_little(steps: dict[str, int], distance_error: float) -> None:
     """Depth within 1 m at every row; without noise, whose decisions at dead bands differ after the first difference."""
-    coarse = flown(sensors=QUIET, integration=steps)
+    coarse = flown(sensors=QUIET, integration=steps, duration_days=1.0)
     cut = coarse.mission.plan.integration
     finer = {"steady_steps": 10 * cut.steady_steps, "moving_steps": 10 * cut.moving_steps}
-    fine = flown(sensors=QUIET, integration=finer)
+    fine = flown(sensors=QUIET, integration=finer, duration_days=1.0)
     k = STATE_COLUMNS.index("depth")
     assert np.abs(fine.record[:, k] - coarse.record[:, k]).max() < 1.0
     made_good = [summary(one)["distance_made_good_km"] for one in (coarse, fine)]

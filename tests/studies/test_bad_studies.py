@@ -55,7 +55,7 @@ def test_refused_by_the_command(folder: Path, write: Write) -> None:
     assert "--workers 0: must be at least 1" in refused(folder, study, "--workers", 0)
     assert "missing.toml: cannot be read: No such file" in refused(folder, "missing.toml")
     nobody = refused(folder, study, "--scheduler", "nonsense://1")
-    assert "--scheduler nonsense://1: cannot be reached" in nobody
+    assert "--scheduler nonsense://1: must look like tcp://host:8786" in nobody
     assert not (folder / "study.nc").exists()
 
 

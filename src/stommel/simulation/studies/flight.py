@@ -8,7 +8,7 @@ import stommel
 from stommel.errors import StommelError
 from stommel.ocean.ocean import Ocean
 from stommel.simulation.mission import Flown, fly_mission, mission_from
-from stommel.simulation.studies.study import RunKit
+from stommel.simulation.studies.kit import RunKit
 from stommel.simulation.studies.study_file import Value
 
 Record = dict[str, Any]

@@ -3,6 +3,7 @@
 import logging
 import multiprocessing
 import os
+import re
 import signal
 import threading
 from collections.abc import Generator, Iterator, Sequence
@@ -17,7 +18,7 @@ from typing import Any
 from stommel.errors import StommelError
 from stommel.simulation.studies.errors import StudyError
 from stommel.simulation.studies.flight import Record, fly_run
-from stommel.simulation.studies.study import RunKit
+from stommel.simulation.studies.kit import RunKit
 from stommel.simulation.studies.study_file import Value
 
 Task = tuple[int, tuple[Value, ...]]
@@ -31,6 +32,8 @@ _LOOK_S = 0.5
 
 _ONE_THREAD = dict.fromkeys(("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 """Runs are the parallelism; threads of the libraries would only get into each other's way."""
+
+_ADDRESS = re.compile(r"(tcp|tls|wss?)://(\[[0-9a-fA-F:.]+\]|[^\s/:\[\]]+):\d{1,5}")
 
 _kit: RunKit | None = None
 
@@ -111,7 +114,7 @@ def _fly(run: int, values: tuple[Value, ...]) -> Record:
 
 
 def fly_on_cluster(
-    kit: RunKit, tasks: Sequence[Task], address: str, stop: threading.Event, *, patience_s: float = 30.0
+    kit: RunKit, tasks: Sequence[Task], address: str, stop: threading.Event, *, patience_s: float = 20.0
 ) -> Generator[Record, None, None]:
     """Fly runs on a Dask cluster; the runs of a worker that goes away are flown by the others.
 
@@ -129,6 +132,8 @@ def fly_on_cluster(
     StudyError
         Dask is not installed, the scheduler cannot be reached or has no workers, or it goes away.
     """
+    if not _ADDRESS.fullmatch(address):
+        raise StudyError(f"--scheduler {address}: must look like tcp://host:8786")
     try:
         import distributed  # noqa: PLC0415 - an extra, and slow to load
     except ImportError:

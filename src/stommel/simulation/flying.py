@@ -14,8 +14,8 @@ from stommel.control.guidance import metres_per_radian
 from stommel.control.laws import HeadingLaw, PitchLaw, wrapped
 from stommel.dynamics.acceleration import state_from_velocities
 from stommel.dynamics.compilation import compiled, inlined
-from stommel.dynamics.equations import net_weight, rates, state_from_array, state_into_array
-from stommel.dynamics.inertia import velocities
+from stommel.dynamics.equations import net_weight, rates, state_from_array, state_into_array, static_moment
+from stommel.dynamics.inertia import moving_mass_position, velocities
 from stommel.dynamics.state import STATE_SIZE, Actuation
 from stommel.dynamics.vectors import dot
 from stommel.ocean.column import fill_column, water_at
@@ -31,6 +31,12 @@ AFLOAT_DEPTH = 0.15
 
 LARGEST_STEP = 0.6
 """Integration step times the square of the speed [m2/s]: damping grows with V^2, and fast flight needs finer steps."""
+
+PITCH_TIME_AFLOAT = 10.0
+"""Time in which a floating vehicle follows its moving mass [s]."""
+
+STEEPEST_AFLOAT = math.radians(60.0)
+"""Steepest pitch of a floating vehicle [rad]: its ends lie on the water."""
 
 GUIDANCE_PERIOD = 10.0
 """Between two looks at the waypoint [s]."""
@@ -63,16 +69,19 @@ def _step(vehicle, x, k, trial, actuation, column, age, h):  # type: ignore[no-u
 
 
 @inlined
-def _float(vehicle, x, column, age, mu):  # type: ignore[no-untyped-def]  # compiled only
-    """Rest on the water: at the surface, moving with it, attitude kept."""
+def _float(vehicle, x, column, age, mu, step):  # type: ignore[no-untyped-def]  # compiled only
+    """Rest on the water, moving with it, wings level."""
     x[2] = 0.0
     state = state_from_array(x)
     water = water_at(column, 0.0, age)
     actuation = Actuation(0.0, 0.0, 0.0, 0.0, mu, 0.0)
     attitude = attitude_of(state.Q)
     half = 0.5 * attitude.psi
-    half_pitch = 0.5 * attitude.theta
-    # wings level, heading and pitch kept
+    # heading kept; the pitch follows the moving mass to where it balances
+    s = static_moment(vehicle, water, moving_mass_position(vehicle, state.r_px, mu), state.V_b)
+    balanced = max(-STEEPEST_AFLOAT, min(STEEPEST_AFLOAT, math.atan(-s[0] / s[2])))
+    theta = attitude.theta + min(1.0, step / PITCH_TIME_AFLOAT) * (balanced - attitude.theta)
+    half_pitch = 0.5 * theta
     Q = (
         math.cos(half_pitch) * math.cos(half),
         -math.sin(half_pitch) * math.sin(half),
@@ -81,7 +90,7 @@ def _float(vehicle, x, column, age, mu):  # type: ignore[no-untyped-def]  # comp
     )
     v_level = water.U[0] * math.cos(attitude.psi) + water.U[1] * math.sin(attitude.psi)
     v_across = -water.U[0] * math.sin(attitude.psi) + water.U[1] * math.cos(attitude.psi)
-    v = (v_level * math.cos(attitude.theta), v_across, v_level * math.sin(attitude.theta))
+    v = (v_level * math.cos(theta), v_across, v_level * math.sin(theta))
     rest = state_from_velocities(vehicle, v, (0.0, 0.0, 0.0), state.X, Q, state.r_px, state.V_b, actuation, water)
     state_into_array(rest, x)
 
@@ -101,7 +110,7 @@ def _advance(  # type: ignore[no-untyped-def]  # compiled only
     if world.afloat:
         x[13] += rates_now.r_px_dot * step
         x[15] += rates_now.u_b * step
-        _float(vehicle, x, column, age, mu)
+        _float(vehicle, x, column, age, mu, step)
         U = water_at(column, 0.0, age).U
         x[0] += U[0] * step
         x[1] += U[1] * step

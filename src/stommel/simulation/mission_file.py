@@ -170,9 +170,9 @@ class Integration(Table):
 
     control_step_s: Annotated[float, Field(strict=True, gt=0, le=10)] = 1.0
     """Between two decisions of the software."""
-    steady_steps: Annotated[int, Field(strict=True, ge=1, le=1000)] = 1
+    steady_steps: Annotated[int, Field(strict=True, ge=1, le=1000)] = 2
     """Integration steps in a control step while nothing moves."""
-    moving_steps: Annotated[int, Field(strict=True, ge=1, le=1000)] = 2
+    moving_steps: Annotated[int, Field(strict=True, ge=1, le=1000)] = 4
     """The same while an actuator moves or the vehicle answers it."""
     settle_s: NotNegative = 30.0
     """How long it answers."""

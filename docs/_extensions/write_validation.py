@@ -61,7 +61,7 @@ def report() -> Iterator[str]:
 def paper_tables() -> Iterator[str]:
     """Tables 1 and 2 of the paper, row by row."""
     zju = stommel.load_vehicle("zju")
-    for table in published_tables("zju.toml"):
+    for table in published_tables("zju"):
         yield f"## {table.title}\n"
         yield "| speed m/s | pitch deg | moving mass mm | printed | angle of attack deg | printed | ballast ml | printed |"
         yield "|---:|---:|---:|---:|---:|---:|---:|---:|"

@@ -18,6 +18,9 @@ def write_whole(path: Path, content: bytes | str) -> None:
     data = content.encode("utf-8") if isinstance(content, str) else content
     temporary: str | None = None
     try:
+        if path.is_symlink() or (path.exists() and not (path.is_file() or path.is_dir())):
+            path.write_bytes(data)  # a device, a pipe, a link: written into, never replaced
+            return
         path.parent.mkdir(parents=True, exist_ok=True)
         if path.is_dir():
             raise OutputError(f"{path}: cannot be written: it is a folder")

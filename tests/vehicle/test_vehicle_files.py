@@ -85,7 +85,7 @@ class TestRefusals:
             ("mass_kg = 45", "mass_kg = nan", "rigid_body.mass_kg = nan: must be a finite number"),
             ("mass_kg = 45", "mass_kg = inf", "rigid_body.mass_kg = inf: must be a finite number"),
             ("mass_kg = 45", 'mass_kg = "heavy"', "rigid_body.mass_kg = 'heavy': must be a number"),
-            ("mass_kg = 45", "mass_kg = true", "rigid_body.mass_kg = True: must be a number"),
+            ("mass_kg = 45", "mass_kg = true", "rigid_body.mass_kg = true: must be a number"),
             ("[4, 12, 11]", "[4, -12, 11]", "must be positive definite; its least eigenvalue is -12 kg m2"),
             ("[4, 12, 11]", "[0.05, 12, 11]", "about the centre of mass its least eigenvalue is -0.0625 kg m2"),
             ("[4, 12, 11]", "[[4, 1, 0], [0, 12, 0], [0, 0, 11]]", "must be symmetric"),

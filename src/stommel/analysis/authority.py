@@ -5,7 +5,7 @@ scale. With x' = A x + B u the final change of a stable flight is -A^-1 B u.
 """
 
 from dataclasses import dataclass
-from math import cos, degrees, pi, radians
+from math import cos, degrees, pi
 
 import numpy as np
 
@@ -69,5 +69,5 @@ def _turn_rates(linear: Linearization) -> tuple[float | None, float | None]:
     # heading rate of a wings-level flight, to first order: psi' = r / cos(theta)
     rates = [float(final[2, j]) / cos(linear.flight.theta) for j in range(2)]
     steers = [bool(np.any(lateral.B[:, j] != 0.0)) for j in range(2)]
-    rudder, roll = (degrees(rate * radians(1.0)) if able else None for rate, able in zip(rates, steers, strict=True))
+    rudder, roll = (rate if able else None for rate, able in zip(rates, steers, strict=True))
     return rudder, roll

@@ -7,7 +7,7 @@ from math import degrees, inf, radians
 import numpy as np
 
 from stommel.analysis.flight import SteadyFlight, flight_from
-from stommel.analysis.steady_equations import ALPHA, CONVERGED, R_PX, THETA, V_B, V
+from stommel.analysis.steady_equations import ALPHA, CONVERGED, QUANTITIES, R_PX, V_B, V
 from stommel.analysis.wings_level import trim_many
 from stommel.dynamics.packing import pack
 from stommel.dynamics.state import Water
@@ -15,7 +15,7 @@ from stommel.errors import StommelError
 from stommel.vehicle import Physics, Vehicle
 
 SPEED_WEIGHT = 1 / 0.1
-PITCH_WEIGHT = 1 / radians(5.0)
+ANGLE_WEIGHT = 1 / radians(5.0)
 """Nearness of flights: 0.1 m/s counts as much as 5 degrees."""
 
 
@@ -62,11 +62,21 @@ class UnreachableFlightError(StommelError):
         self.reasons = reasons
         self.nearest = nearest
         if nearest is not None:
-            message += (
-                f"; nearest reachable: speed {nearest.V:.3f} m/s at pitch {degrees(nearest.theta):.2f} deg "
-                f"(moving mass {nearest.r_px * 1e3:.1f} mm, ballast {nearest.V_b * 1e6:.1f} ml)"
-            )
+            message += f"; nearest reachable: {_in_words(nearest)}"
         super().__init__(message)
+
+
+def _in_words(flight: SteadyFlight) -> str:
+    turning = f"turn rate {flight.turn_rate:.5g} rad/s, radius {flight.radius:.4g} m, " if flight.turn_rate else ""
+    settings = f"moving mass {flight.r_px * 1e3:.1f} mm, ballast {flight.V_b * 1e6:.1f} ml"
+    if flight.delta_r:
+        settings += f", rudder {degrees(flight.delta_r):.2f} deg"
+    if flight.mu:
+        settings += f", roll mass {degrees(flight.mu):.2f} deg"
+    return (
+        f"{turning}speed {flight.V:.3f} m/s at pitch {degrees(flight.theta):.2f} deg, "
+        f"glide path {degrees(flight.gamma):.2f} deg ({settings})"
+    )
 
 
 def excesses(vehicle: Vehicle, flight: SteadyFlight) -> tuple[Excess, ...]:
@@ -93,6 +103,19 @@ def excesses(vehicle: Vehicle, flight: SteadyFlight) -> tuple[Excess, ...]:
     return tuple(checks)
 
 
+def clamped(vehicle: Vehicle, settings: tuple[float, ...]) -> tuple[float, ...]:
+    """Cut moving mass [mm], ballast [ml], rudder [deg] and roll mass [deg] at the limits of the vehicle file."""
+    a = vehicle.description.actuators
+    rudder, roll = (drive.travel_deg if drive else inf for drive in (a.rudder, a.roll))
+    limits = (
+        a.moving_mass.travel_mm if a.moving_mass else (-inf, inf),
+        a.buoyancy.volume_ml if a.buoyancy else (-inf, inf),
+        (-rudder, rudder),
+        (-roll, roll),
+    )
+    return tuple(min(max(value, low), high) for value, (low, high) in zip(settings, limits, strict=True))
+
+
 def reachable(vehicle: Vehicle, flights: np.ndarray, codes: np.ndarray) -> np.ndarray:
     """Which of many wings-level flights (N x 10) are within the limits of the vehicle file."""
     actuators, stall = vehicle.description.actuators, radians(vehicle.description.hydrodynamics.stall_begins_deg)
@@ -111,27 +134,30 @@ def reachable(vehicle: Vehicle, flights: np.ndarray, codes: np.ndarray) -> np.nd
 
 
 def nearest_reachable(
-    vehicle: Vehicle, physics: Physics, water: Water, speed: float, theta: float
+    vehicle: Vehicle, physics: Physics, water: Water, speed: float, angle: float, *, along_path: bool
 ) -> SteadyFlight | None:
-    """Return the reachable wings-level flight nearest to `speed` [m/s] and pitch `theta` [rad], if there is any.
+    """Return the reachable wings-level flight nearest to `speed` [m/s] and pitch `angle` [rad], if there is any.
+
+    With `along_path` the angle is that of the glide path.
 
     A grid over all speeds and pitches, then finer grids about the best: reachable regions need be neither convex nor
     whole.
     """
     record = pack(vehicle, physics)
-    side = -1.0 if theta <= 0.0 else 1.0
-    speeds, pitches = np.linspace(0.02, 2.5, 63), side * np.radians(np.linspace(1.0, 89.0, 89))
+    side = -1.0 if angle <= 0.0 else 1.0
+    speeds, angles = np.linspace(0.02, 2.5, 63), side * np.radians(np.linspace(1.0, 89.0, 89))
     best: np.ndarray | None = None
     for _ in range(6):
-        V_grid, theta_grid = (grid.ravel() for grid in np.meshgrid(speeds, pitches))
-        flights = np.zeros((len(V_grid), 10))
-        codes = trim_many(record, V_grid, theta_grid, False, water, flights)
-        inside = flights[reachable(vehicle, flights, codes)]
-        if len(inside) == 0:
+        V_grid, angle_grid = (grid.ravel() for grid in np.meshgrid(speeds, angles))
+        flights = np.zeros((len(V_grid), QUANTITIES))
+        codes = trim_many(record, V_grid, angle_grid, along_path, water, flights)
+        within = reachable(vehicle, flights, codes)
+        if not within.any():
             break
-        distance = np.hypot(SPEED_WEIGHT * (inside[:, V] - speed), PITCH_WEIGHT * (inside[:, THETA] - theta))
-        best = inside[np.argmin(distance)]
+        distance = np.hypot(SPEED_WEIGHT * (V_grid - speed), ANGLE_WEIGHT * (angle_grid - angle))
+        k = int(np.argmin(np.where(within, distance, inf)))
+        best = flights[k]
         # shrink by less than a grid cell each time: the neighbours of the best stay inside
         speeds = np.clip(best[V] + (speeds[1] - speeds[0]) * np.linspace(-1, 1, 13), 1e-3, None)
-        pitches = best[THETA] + (pitches[1] - pitches[0]) * np.linspace(-1, 1, 13)
+        angles = angle_grid[k] + (angles[1] - angles[0]) * np.linspace(-1, 1, 13)
     return None if best is None else flight_from(record, best, water)

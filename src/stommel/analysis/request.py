@@ -3,6 +3,7 @@
 from math import isfinite
 
 from stommel.errors import StommelError
+from stommel.vehicle import Vehicle
 
 
 class RequestError(StommelError):
@@ -22,3 +23,12 @@ def check_angle(name: str, angle_deg: float) -> None:
             f"{name} = {angle_deg:g} deg: must be between -90 and 90 deg, both excluded: "
             "straight up or down the moving mass has no lever"
         )
+
+
+def check_roll(vehicle: Vehicle) -> None:
+    """Refuse a vehicle that cannot roll its moving mass."""
+    d = vehicle.description
+    if d.moving_mass.offset_m == 0.0:
+        raise RequestError(f"{vehicle.name} cannot roll its moving mass: moving_mass.offset_m is 0")
+    if d.actuators.roll is None:
+        raise RequestError(f"{vehicle.name} cannot roll its moving mass; its file has no table [actuators.roll]")

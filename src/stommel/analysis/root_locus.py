@@ -26,6 +26,9 @@ POSITIONS = {
 
 Branches = NDArray[np.complex128]
 
+_MOST_POINTS = 10_000
+"""A trim, a linearisation and a validation each: some ten seconds."""
+
 
 @dataclass(frozen=True)
 class RootLocus:
@@ -81,8 +84,8 @@ def root_locus(
     UnreachableFlightError
         No such flight at some value; the message names it.
     """
-    if points < 2:
-        raise RequestError(f"points = {points}: must be at least 2")
+    if not 2 <= points <= _MOST_POINTS:
+        raise RequestError(f"points = {points}: must be at least 2 and at most {_MOST_POINTS}")
     if not (np.isfinite(start) and np.isfinite(stop)) or start == stop:
         raise RequestError(f"from {start:g} to {stop:g}: must be two different finite numbers")
     key, factor, unit = _field(vehicle, over)

@@ -11,10 +11,11 @@ from stommel.analysis.limits import (
     Excess,
     Reason,
     UnreachableFlightError,
+    clamped,
     excesses,
     nearest_reachable,
 )
-from stommel.analysis.request import RequestError, check_angle, check_speed
+from stommel.analysis.request import RequestError, check_angle, check_roll, check_speed
 from stommel.analysis.steady_equations import CONVERGED, QUANTITIES
 from stommel.analysis.turning import turn_of_settings
 from stommel.analysis.wings_level import TOO_SHALLOW, flight_of_settings, trim_into
@@ -70,8 +71,12 @@ def trim(
     z = np.zeros(QUANTITIES)
     code = trim_into(record, float(speed_m_s), radians(angle_deg), along_path, water, z)
     wanted = f"speed {speed_m_s:g} m/s at {name} {angle_deg:g} deg is not reachable"
+
+    def nearest_to() -> SteadyFlight | None:
+        return nearest_reachable(vehicle, physics, water, speed_m_s, radians(angle_deg), along_path=along_path)
+
     if code != CONVERGED:
-        nearest = nearest_reachable(vehicle, physics, water, speed_m_s, radians(angle_deg)) if within_limits else None
+        nearest = nearest_to() if within_limits else None
         if code == TOO_SHALLOW:
             why = "no angle of attack gives the lift for so shallow a path"
             raise UnreachableFlightError(f"{wanted}: {why}", (Reason.SHALLOW,), nearest)
@@ -80,8 +85,7 @@ def trim(
     flight = flight_from(record, z, water)
     broken = excesses(vehicle, flight) if within_limits else ()
     if broken:
-        nearest = nearest_reachable(vehicle, physics, water, speed_m_s, flight.theta)
-        raise _unreachable(wanted, broken, nearest)
+        raise _unreachable(wanted, broken, nearest_to())
     return flight
 
 
@@ -144,29 +148,60 @@ def steady_flight(
     for name, value in settings.items():
         if not isfinite(value):
             raise RequestError(f"{name} = {value}: must be a finite number")
-    water = water or reference_water(vehicle)
-    record = pack(vehicle, physics)
-    z = np.zeros(QUANTITIES)
-    r_px, V_b = moving_mass_mm / 1e3, ballast_ml / 1e6
-    if rudder_deg == 0.0 and roll_mass_deg == 0.0:
-        code = flight_of_settings(record, r_px, V_b, water, z)
-    else:
+    if rudder_deg or roll_mass_deg:
         vehicle.require_lateral("turning flight")
         _check_steering(vehicle, rudder_deg, roll_mass_deg)
-        code = turn_of_settings(record, r_px, V_b, radians(rudder_deg), radians(roll_mass_deg), water, z)
+    water = water or reference_water(vehicle)
+    record = pack(vehicle, physics)
+    flight = _flight_of(record, tuple(settings.values()), water)
     asked = f"moving mass {moving_mass_mm:g} mm, ballast {ballast_ml:g} ml"
     if rudder_deg:
         asked += f", rudder {rudder_deg:g} deg"
     if roll_mass_deg:
         asked += f", roll mass {roll_mass_deg:g} deg"
-    if code != CONVERGED:
-        why = "the vehicle is neutral and drifts" if V_b == 0.0 else "these settings balance in no steady flight"
-        raise UnreachableFlightError(f"{asked}: {why}", (Reason.NO_EQUILIBRIUM,))
-    flight = flight_from(record, z, water)
-    broken = excesses(vehicle, flight) if within_limits else ()
-    if broken:
-        raise _unreachable(f"{asked} is not possible", broken, None)
-    return flight
+    broken = excesses(vehicle, flight) if flight is not None and within_limits else ()
+    if flight is not None and not broken:
+        return flight
+    nearest = _nearest_settings(vehicle, record, tuple(settings.values()), water) if within_limits else None
+    if flight is None:
+        neutral = water.rho * (record.V_0 + ballast_ml / 1e6) == record.m
+        why = "the vehicle is neutral and drifts" if neutral else "these settings balance in no steady flight"
+        raise UnreachableFlightError(f"{asked}: {why}", (Reason.NO_EQUILIBRIUM,), nearest)
+    raise _unreachable(f"{asked} is not possible", broken, nearest)
+
+
+Settings = tuple[float, ...]
+"""Moving mass [mm], ballast [ml], rudder [deg], roll mass [deg]."""
+
+
+def _flight_of(record: np.record, settings: Settings, water: Water) -> SteadyFlight | None:
+    """Find the steady flight of four actuator settings, if they have one."""
+    z = np.zeros(QUANTITIES)
+    r_px, V_b = settings[0] / 1e3, settings[1] / 1e6
+    delta_r, mu = radians(settings[2]), radians(settings[3])
+    if delta_r == 0.0 and mu == 0.0:
+        code = flight_of_settings(record, r_px, V_b, water, z)
+    else:
+        code = turn_of_settings(record, r_px, V_b, delta_r, mu, water, z)
+    return flight_from(record, z, water) if code == CONVERGED else None
+
+
+def _nearest_settings(vehicle: Vehicle, record: np.record, settings: Settings, water: Water) -> SteadyFlight | None:
+    """Flight of the settings that keep within the limits: each cut at its own, then rudder and roll taken back."""
+    cut = clamped(vehicle, settings)
+
+    def at(share: float) -> SteadyFlight | None:
+        flight = _flight_of(record, (cut[0], cut[1], share * cut[2], share * cut[3]), water)
+        return flight if flight is not None and not excesses(vehicle, flight) else None
+
+    nearest, low, high = at(1.0), 0.0, 1.0
+    if nearest is not None or (nearest := at(0.0)) is None:
+        return nearest
+    for _ in range(30):
+        middle = 0.5 * (low + high)
+        trial = at(middle)
+        low, high, nearest = (middle, high, trial) if trial is not None else (low, middle, nearest)
+    return nearest
 
 
 def _unreachable(wanted: str, broken: tuple[Excess, ...], nearest: SteadyFlight | None) -> UnreachableFlightError:
@@ -178,5 +213,5 @@ def _check_steering(vehicle: Vehicle, rudder_deg: float, roll_mass_deg: float) -
     d = vehicle.description
     if rudder_deg and d.rudder is None:
         raise RequestError(f"{vehicle.name} has no rudder; its file has no table [rudder]")
-    if roll_mass_deg and d.moving_mass.offset_m == 0.0:
-        raise RequestError(f"{vehicle.name} cannot roll its moving mass: moving_mass.offset_m is 0")
+    if roll_mass_deg:
+        check_roll(vehicle)

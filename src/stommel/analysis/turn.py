@@ -8,7 +8,7 @@ import numpy as np
 
 from stommel.analysis.flight import SteadyFlight, flight_from
 from stommel.analysis.limits import Excess, Reason, UnreachableFlightError, excesses
-from stommel.analysis.request import RequestError, check_angle, check_speed
+from stommel.analysis.request import RequestError, check_angle, check_roll, check_speed
 from stommel.analysis.steady_equations import CONVERGED, DELTA_R, MU, QUANTITIES
 from stommel.analysis.trim import trim
 from stommel.analysis.turning import turn_into
@@ -70,16 +70,18 @@ def turn(
     tightest = question.tightest()
     if tightest is None:
         # not even straight: say why
-        trim(vehicle, speed_m_s=speed_m_s, pitch_deg=pitch_deg, physics=physics, water=water)
-    asked = f"speed {speed_m_s:g} m/s at pitch {pitch_deg:g} deg with {name} {wanted:g} {unit}"
-    message = f"{asked} is not reachable: {broken[0] if broken else 'no steady turn so tight'}"
-    if tightest is not None:
-        message += (
-            f"; nearest reachable: turn rate {tightest.turn_rate:.5g} rad/s, radius {tightest.radius:.4g} m "
-            f"at the same speed and pitch"
+        trim(
+            vehicle,
+            speed_m_s=speed_m_s,
+            pitch_deg=pitch_deg,
+            physics=physics,
+            water=water,
+            within_limits=within_limits,
         )
+    asked = f"speed {speed_m_s:g} m/s at pitch {pitch_deg:g} deg with {name} {wanted:g} {unit}"
+    why = "; ".join(map(str, broken)) or "no steady turn so tight"
     reasons = tuple(excess.reason for excess in broken) or (Reason.NO_EQUILIBRIUM,)
-    raise UnreachableFlightError(message, reasons)
+    raise UnreachableFlightError(f"{asked} is not reachable: {why}", reasons, tightest)
 
 
 @dataclass(frozen=True)
@@ -123,10 +125,12 @@ class _Turn:
 
 def _steering(vehicle: Vehicle, by: Steering | None) -> int:
     d = vehicle.description
+    if by is None and d.rudder is None and d.actuators.roll is None:
+        raise RequestError(f"{vehicle.name} can steer neither by rudder nor by rolling its moving mass")
     if by is None:
         by = "rudder" if d.rudder is not None else "roll"
     if by == "rudder" and d.rudder is None:
         raise RequestError(f"{vehicle.name} has no rudder; its file has no table [rudder]")
-    if by == "roll" and (d.moving_mass.offset_m == 0.0 or d.actuators.roll is None):
-        raise RequestError(f"{vehicle.name} can steer neither by rudder nor by rolling its moving mass")
+    if by == "roll":
+        check_roll(vehicle)
     return DELTA_R if by == "rudder" else MU

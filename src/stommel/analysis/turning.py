@@ -26,7 +26,7 @@ from stommel.analysis.steady_equations import (
     V,
     newton,
 )
-from stommel.analysis.wings_level import flight_of_settings, trim_into
+from stommel.analysis.wings_level import flight_of_settings, principal, trim_into
 from stommel.dynamics.compilation import compiled
 from stommel.dynamics.state import Water
 
@@ -60,7 +60,7 @@ def turn_of_settings(
             step *= 0.5
             if step < _SMALLEST_STEP:
                 return STALLED_ITERATION
-    return CONVERGED
+    return principal(z)
 
 
 @compiled

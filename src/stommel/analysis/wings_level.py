@@ -164,6 +164,13 @@ def trim_at_incidence(vehicle: np.record, alpha: float, V_b: float, water: Water
     return newton(vehicle, z, np.array([V, THETA, R_PX]), _PITCH_EQUATIONS, water, 0.0, 0.0)
 
 
+@inlined
+def principal(z: np.ndarray) -> int:
+    """Bring the angle of attack that Newton wound up to (-180, 180] deg; a pitch beyond the vertical is no flight."""
+    z[ALPHA] -= 2.0 * math.pi * math.ceil(z[ALPHA] / (2.0 * math.pi) - 0.5)
+    return CONVERGED if abs(z[THETA]) < 0.5 * math.pi else STALLED_ITERATION
+
+
 @compiled
 def flight_of_settings(vehicle: np.record, r_px: float, V_b: float, water: Water, z: np.ndarray) -> int:
     """Find the wings-level flight of the moving mass at `r_px` [m] and the ballast volume `V_b` [m3].
@@ -187,4 +194,5 @@ def flight_of_settings(vehicle: np.record, r_px: float, V_b: float, water: Water
     if best == math.inf:
         return STALLED_ITERATION
     z[R_PX] = r_px
-    return newton(vehicle, z, np.array([V, ALPHA, THETA]), _PITCH_EQUATIONS, water, 0.0, 0.0)
+    code = newton(vehicle, z, np.array([V, ALPHA, THETA]), _PITCH_EQUATIONS, water, 0.0, 0.0)
+    return principal(z) if code == CONVERGED else code

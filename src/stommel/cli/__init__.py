@@ -1,5 +1,6 @@
 """The command line: one file a verb. Errors that a user can mend are one line each and exit status 2."""
 
+import errno
 import os
 import sys
 from collections.abc import Callable
@@ -7,10 +8,21 @@ from typing import NoReturn
 
 USAGE_ERROR, DEFECT, INTERRUPTED = 2, 1, 130
 
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+"""Why an answer cannot be written to standard output."""
+
 
 def main() -> NoReturn:
     """Run the command line; no traceback reaches a user, unless STOMMEL_TRACEBACK is set."""
-    sys.exit(_run())
+    if sys.stdout is None:  # closed by the caller, as with `>&-`
+        sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115 - stands until the process ends
+    try:
+        status = _run()
+    except KeyboardInterrupt:  # while modules still load
+        status = INTERRUPTED
+    except Exception as error:  # noqa: BLE001 - told as one line; nothing else may reach a user
+        status = _defect(error)
+    sys.exit(status)
 
 
 def _run() -> int:
@@ -31,12 +43,19 @@ def _run() -> int:
         # the reader of our output has gone, as with `| head`; keep Python from complaining at exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except Exception as error:
-        if os.environ.get("STOMMEL_TRACEBACK"):
+    except OSError as error:
+        if error.errno not in _NO_ROOM:
             raise
-        what = f"{type(error).__name__}: {error}".replace("\n", " ")
-        return _fail(f"this is a defect of stommel, please report it (STOMMEL_TRACEBACK=1 shows where): {what}", DEFECT)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return _fail(f"the answer cannot be written: {error.strerror}", USAGE_ERROR)
     return status if isinstance(status, int) else 0
+
+
+def _defect(error: Exception) -> int:
+    if os.environ.get("STOMMEL_TRACEBACK"):
+        raise error
+    what = f"{type(error).__name__}: {error}".replace("\n", " ")
+    return _fail(f"this is a defect of stommel, please report it (STOMMEL_TRACEBACK=1 shows where): {what}", DEFECT)
 
 
 def _usage_message(error: Exception) -> str:

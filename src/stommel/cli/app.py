@@ -33,6 +33,7 @@ app = typer.Typer(
     invoke_without_command=True,
     add_completion=True,
     pretty_exceptions_enable=False,
+    rich_markup_mode="markdown",  # [m/s] in a help text is a unit, not markup
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 

@@ -12,6 +12,7 @@ from stommel.errors import StommelError
 
 if TYPE_CHECKING:
     from stommel.analysis import BestConditions, EnvelopeRow, RangesNeeded
+    from stommel.vehicle import Vehicle
 
 
 def envelope(
@@ -38,10 +39,8 @@ def envelope(
         raise StommelError("--speed and --pitch go together: a region has both")
     if speed is not None and pitch is not None:
         wanted = [(v, p) for v in numbers(speed, "--speed") for p in numbers(pitch, "--pitch")]
-    elif glider.description.specification is not None:
-        wanted = specified_flights(glider)
     else:
-        wanted = []
+        wanted = specified_flights(glider) if _specifies(glider) else []
     needs = ranges_needed(glider, wanted, physics=switches) if wanted else None
     engine = glider.description.actuators.buoyancy
     reach = flight_envelope(glider, physics=switches) if engine is not None else None
@@ -68,6 +67,12 @@ def envelope(
         _show_best(best)
     if needs is not None:
         _show_needs(needs)
+
+
+def _specifies(glider: "Vehicle") -> bool:
+    """Whether the specification says which flights it wants."""
+    spec = glider.description.specification
+    return bool(spec and spec.speed_m_s and spec.design_speed_m_s and spec.design_pitch_deg)
 
 
 def _show_reach(name: str, reach: "list[EnvelopeRow]") -> None:

@@ -28,9 +28,10 @@ def numbers(text: str, option: str) -> list[float]:
         raise NumberError(form) from None
     if step == 0.0 or (last - first) / step < 0.0:
         raise NumberError(f"{option} = {text!r}: steps of {step:g} never lead from {first:g} to {last:g}")
-    count = floor((last - first) / step + 1e-9) + 1
-    if count > MOST:
-        raise NumberError(f"{option} = {text!r}: {count} numbers; at most {MOST} are allowed")
+    steps = (last - first) / step
+    if not steps < MOST:
+        raise NumberError(f"{option} = {text!r}: {steps:.6g} numbers; at most {MOST} are allowed")
+    count = floor(steps + 1e-9) + 1
     # rounded, so that 0.1:0.8:0.1 gives 0.3 and not 0.30000000000000004
     return [round(first + k * step, 12) for k in range(count)]
 

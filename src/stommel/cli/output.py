@@ -2,9 +2,12 @@
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 WIDTH = 80
 """Tables fit into a terminal of this many columns."""
@@ -18,7 +21,6 @@ def show_json(value: Any) -> None:
 def show_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]], notes: Iterable[str] = ()) -> None:
     """Print a table with numbers to the right, and notes below it."""
     from rich import box
-    from rich.console import Console
     from rich.table import Table
 
     table = Table(title=title, box=box.SIMPLE_HEAD, title_justify="left", title_style="bold", pad_edge=False)
@@ -28,24 +30,29 @@ def show_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]
         table.add_column(column, justify="left" if text else "right", overflow="fold")
     for row in rows:
         table.add_row(*row)
-    # a pipe has no width: keep the layout of an ordinary terminal
-    console = Console(width=None if _is_terminal() else WIDTH, highlight=False)
+    console = _console()
     console.print(table)
     for note in notes:
-        console.print(note, markup=False)
+        console.print(note)
 
 
 def show_values(title: str, values: Mapping[str, str], notes: Iterable[str] = ()) -> None:
     """Print named values, one a line."""
-    from rich.console import Console
-
-    console = Console(width=None if _is_terminal() else WIDTH, highlight=False)
-    console.print(title, style="bold", markup=False)
+    console = _console()
+    console.print(title, style="bold")
     width = max(len(name) for name in values)
     for name, value in values.items():
-        console.print(f"  {name:<{width}}  {value}", markup=False)
+        console.print(f"  {name:<{width}}  {value}")
     for note in notes:
-        console.print(note, markup=False)
+        console.print(note)
+
+
+def _console() -> "Console":
+    """A console for text from vehicle files: brackets and colons in it are letters, not markup."""
+    from rich.console import Console
+
+    # a pipe has no width: keep the layout of an ordinary terminal
+    return Console(width=None if _is_terminal() else WIDTH, highlight=False, markup=False, emoji=False)
 
 
 def number(value: float | None, digits: int, unit: str = "") -> str:

@@ -90,9 +90,9 @@ def _as_json(locus: "RootLocus", written: list[Path]) -> dict[str, Any]:
 
 def _show(name: str, locus: "RootLocus") -> None:
     rows = []
-    every = max(1, (len(locus.values) - 1) // 10)
+    last = len(locus.values) - 1
     lateral = locus.lateral
-    for k in range(0, len(locus.values), every):
+    for k in sorted({round(last * tenth / 10) for tenth in range(11)}):  # both ends, whatever the count
         able = locus.authorities[k]
         rows.append(
             [

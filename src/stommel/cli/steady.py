@@ -18,7 +18,9 @@ def steady(
         float, typer.Option("--moving-mass-mm", help="Moving mass forward of the centre of buoyancy [mm].")
     ],
     ballast_ml: Annotated[float, typer.Option("--ballast-ml", help="Ballast volume [ml]; negative dives.")],
-    rudder_deg: Annotated[float, typer.Option("--rudder-deg", help="Rudder [deg]; positive turns to starboard.")] = 0.0,
+    rudder_deg: Annotated[
+        float, typer.Option("--rudder-deg", help="Rudder [deg]; positive yaws the nose to starboard.")
+    ] = 0.0,
     roll_mass_deg: Annotated[
         float, typer.Option("--roll-mass-deg", help="Moving mass about the hull [deg]; positive swings it to port.")
     ] = 0.0,

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from stommel.cli.numbers import numbers
+from stommel.cli.numbers import MOST, NumberError, numbers
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
 from stommel.cli.output import number, show_json, show_table
 
@@ -21,6 +21,8 @@ def table(
     Example: stommel table zju --speed 0.4 --pitch -5:-60:-5
     """
     speeds, pitches = numbers(speed, "--speed"), numbers(pitch, "--pitch")
+    if len(speeds) * len(pitches) > MOST:
+        raise NumberError(f"{len(speeds)} speeds by {len(pitches)} pitches; at most {MOST} rows are allowed")
     from stommel.analysis.trim import trim_table
 
     glider = load(vehicle)

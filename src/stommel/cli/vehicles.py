@@ -1,5 +1,6 @@
 """`stommel vehicles` and `stommel vehicle show|check|new`."""
 
+import os
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -111,7 +112,7 @@ def new(
         raise UnknownVehicleError(
             f"--from {like}: no built-in vehicle of this name; there are {', '.join(builtin_names())}"
         )
-    if path.exists() and not force:
+    if os.path.exists(path) and not force:  # noqa: PTH110 - Path.exists raises for a name that is too long
         raise OutputError(f"{path}: already exists; --force replaces it")
     write_whole(path, builtin_text(like))
     typer.echo(f"wrote {path}, a copy of {like}; edit it, then run: stommel vehicle check {path}")

@@ -210,7 +210,7 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
 
 def _tables(vehicle: Vehicle, physics: Physics, speed: float, pitch: float) -> tuple[ComparedTable, ...]:
     """Published tables where there are any, otherwise the same two questions at the vehicle's own design flight."""
-    published = published_tables(vehicle.origin)
+    published = published_tables(vehicle.builtin)
     if published:
         return tuple(
             ComparedTable(

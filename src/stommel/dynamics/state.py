@@ -45,7 +45,7 @@ class Actuation(NamedTuple):
     u_b: float = 0.0
     """Rate of the ballast volume [m3/s]."""
     delta_r: float = 0.0
-    """Rudder angle [rad]; positive turns to starboard."""
+    """Rudder angle [rad]; positive yaws the nose to starboard."""
     mu: float = 0.0
     """Roll angle of the moving mass about b1 [rad]; positive swings it to port."""
     mu_dot: float = 0.0

@@ -1,7 +1,8 @@
 """States from a file, and their accelerations in words: for checking stommel against other codes."""
 
+import codecs
 from collections.abc import Sequence
-from math import degrees, radians
+from math import degrees, isfinite, radians
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,12 +12,16 @@ from stommel.dynamics.acceleration import accelerations, state_of
 from stommel.dynamics.attitude import euler_rates, quaternion_from_euler
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import Actuation
-from stommel.errors import FileError, Problem
+from stommel.errors import FileError, Problem, StommelError
 from stommel.vehicle import Physics, Vehicle
 from stommel.vehicle.messages import dotted, sentence
 
-Finite = Annotated[float, Field(allow_inf_nan=False)]
+Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Triple = tuple[Finite, Finite, Finite]
+
+
+class StateError(StommelError):
+    """A state that this vehicle cannot be in."""
 
 
 class StateEntry(BaseModel):
@@ -51,7 +56,7 @@ def read_states(path: Path) -> list[StateEntry]:
         The file cannot be read, or a state has an unknown, missing or impossible key.
     """
     try:
-        text = path.read_bytes()
+        text = path.read_bytes().removeprefix(codecs.BOM_UTF8)
     except OSError as error:
         raise FileError([Problem(str(path), "", f"cannot be read: {error.strerror or error}")]) from error
     try:
@@ -63,8 +68,8 @@ def read_states(path: Path) -> list[StateEntry]:
 def _problem(file: str, detail: Any) -> Problem:
     if detail["type"] == "json_invalid":
         return Problem(file, "", f"is not valid JSON: {detail['msg'].removeprefix('Invalid JSON: ')}")
-    if not detail["loc"]:
-        return Problem(file, "", "must be a list of states")
+    if len(detail["loc"]) < 2:
+        return Problem(file, "", "must be a list of states, each an object in braces")
     return Problem(file, dotted(detail["loc"]), f"state {sentence(detail, StateEntry)}")
 
 
@@ -82,12 +87,18 @@ def accelerations_of(
     ------
     LateralPlaneUnknownError
         A state leaves the vertical plane of a vehicle whose lateral coefficients are unknown.
+    StateError
+        A state uses an actuator that the vehicle lacks, or its numbers are too large for an answer.
     """
     record, water = pack(vehicle, physics), reference_water(vehicle)
     answers = []
-    for entry in states:
+    for k, entry in enumerate(states):
         if entry.lateral:
-            vehicle.require_lateral("a state with sideways motion")
+            vehicle.require_lateral(f"state {k}, which moves sideways,")
+        if entry.rudder_deg and vehicle.description.rudder is None:
+            raise StateError(f"state {k}: rudder_deg = {entry.rudder_deg:g}: {vehicle.name} has no rudder")
+        if entry.roll_mass_deg and vehicle.description.moving_mass.offset_m == 0.0:
+            raise StateError(f"state {k}: roll_mass_deg = {entry.roll_mass_deg:g}: moving_mass.offset_m is 0")
         roll, pitch, yaw = (radians(angle) for angle in entry.attitude_deg)
         actuation = Actuation(
             r_px_dot=entry.moving_mass_rate_m_s,
@@ -107,6 +118,8 @@ def accelerations_of(
             water,
         )
         found = accelerations(record, x, actuation, water, free)
+        if not all(map(isfinite, (*found.v_dot, *found.omega_dot, found.r_px_ddot, *found.X_dot))):
+            raise StateError(f"state {k}: its numbers are too large: the accelerations overflow")
         rates = euler_rates(roll, pitch, entry.angular_velocity_rad_s)
         answers.append(
             {

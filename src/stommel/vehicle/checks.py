@@ -64,6 +64,7 @@ def _tensor_problems(vehicle: VehicleFile) -> Iterator[tuple[str, str]]:
             f"centre_of_mass_m = {list(body.centre_of_mass_m)}; about the centre of mass its least eigenvalue is "
             f"{least:.6g} kg m2 and must be greater than 0",
         )
+        return
     added = vehicle.added_inertia
     M = np.diag([added.surge_kg, added.sway_kg or 0.0, added.heave_kg]) + body.mass_kg * np.eye(3)
     C = np.array(added.coupling_kg_m) + body.mass_kg * r

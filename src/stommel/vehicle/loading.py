@@ -1,8 +1,9 @@
 """Reading vehicle files, the built-in ones and the user's."""
 
+import os
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -36,6 +37,8 @@ class Vehicle:
     document: Mapping[str, Any] = field(repr=False)
     """The file's plain values by table."""
     provenance: Mapping[str, Provenance] = field(repr=False)
+    builtin: str | None = None
+    """Name of the built-in vehicle that this is, unchanged."""
 
     @property
     def name(self) -> str:
@@ -57,7 +60,8 @@ class Vehicle:
             The key is unknown or not a number, or the changed vehicle is impossible.
         """
         document = _with_value(self, key, value)
-        return Vehicle(_validated(document, self.origin), self.origin, document, self.provenance)
+        kept = {known: origin for known, origin in self.provenance.items() if known != key}  # not its source's any more
+        return Vehicle(_validated(document, self.origin), self.origin, document, kept)
 
     def value(self, key: str) -> float:
         """Number at the dotted `key`, in the file's unit.
@@ -105,15 +109,18 @@ def load_vehicle(name_or_path: str | Path) -> Vehicle:
     """
     name = str(name_or_path)
     if name in builtin_names():
-        return vehicle_from_text(builtin_text(name), f"{name}.toml")
-    path = Path(name)
-    if not path.is_file():
-        what = "is a folder" if path.is_dir() else "is neither a built-in vehicle nor a file"
+        return replace(vehicle_from_text(builtin_text(name), f"{name}.toml"), builtin=name)
+    # os.path: the methods of Path raise for a name that is too long
+    if not os.path.exists(name) or os.path.isdir(name):  # noqa: PTH110, PTH112
+        what = "is a folder" if os.path.isdir(name) else "is neither a built-in vehicle nor a file"  # noqa: PTH112
         raise UnknownVehicleError(f"vehicle {name!r} {what}; built-in: {', '.join(builtin_names())}")
     try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileError([Problem(name, "", f"cannot be read: {error}")]) from error
+        text = Path(name).read_text(encoding="utf-8-sig")  # some editors begin a file with a mark of its encoding
+    except OSError as error:
+        raise FileError([Problem(name, "", f"cannot be read: {error.strerror or error}")]) from error
+    except UnicodeDecodeError as error:
+        what = f"cannot be read as UTF-8: byte {error.start} is 0x{error.object[error.start]:02x}"
+        raise FileError([Problem(name, "", what)]) from error
     return vehicle_from_text(text, name)
 
 
@@ -126,13 +133,13 @@ def vehicle_from_text(text: str, origin: str) -> Vehicle:
         As `load_vehicle`.
     """
     try:
-        parsed = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise FileError([Problem(origin, "", f"is not valid TOML: {error}")]) from error
-    try:
-        document, provenance = separate(parsed)
+        document, provenance = separate(tomllib.loads(text))
     except ProvenanceError as error:
         raise FileError([Problem(origin, error.key, str(error))]) from error
+    except ValueError as error:  # TOMLDecodeError, and an integer of thousands of digits
+        raise FileError([Problem(origin, "", f"is not valid TOML: {str(error).split(';')[0]}")]) from error
+    except RecursionError as error:
+        raise FileError([Problem(origin, "", "is nested too deeply")]) from error
     return Vehicle(_validated(document, origin), origin, document, provenance)
 
 

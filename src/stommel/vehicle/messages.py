@@ -24,6 +24,20 @@ _RANGES = {
 }
 
 
+_PLAIN = {
+    "finite_number": "must be a finite number",
+    "float_type": "must be a number",
+    "float_parsing": "must be a number",
+    "int_type": "must be a number",
+    "list_type": "must be a list",
+    "literal_error": "must be {expected}",
+    "string_type": "must be text",
+    "too_long": "must be a list of {max_length}",
+    "tuple_type": "must be a list",
+}
+"""What is allowed, by kind of error."""
+
+
 def unit_of(key: str) -> str | None:
     """Unit that the name of a key ends with, in words, or None."""
     name = key.rsplit(".", 1)[-1]
@@ -33,7 +47,8 @@ def unit_of(key: str) -> str | None:
 def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[str, str]]:
     """Return (key, sentence) for each of the errors, unknown keys first: they often explain the missing ones."""
     details = sorted(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
-    return [(dotted(detail["loc"]), sentence(detail, model)) for detail in details]
+    found = [(dotted(detail["loc"]), sentence(detail, model)) for detail in details]
+    return list({words: (key, words) for key, words in found}.values())  # a short list misses several entries
 
 
 def dotted(location: Sequence[str | int]) -> str:
@@ -47,22 +62,36 @@ def sentence(detail: ErrorDetails, model: type[BaseModel]) -> str:
     if kind == "extra_forbidden":
         return _unknown(detail["loc"], model)
     if kind == "missing":
-        unit = unit_of(key)
-        where = f" = <number in {unit}>" if unit else ""
-        return f"{key} is missing; add {key.rsplit('.', 1)[-1]}{where}"
+        return _missing(detail, model)
     if kind == "value_error":
         return f"{key + ': ' if key else ''}{detail['ctx']['error']}"
     if kind in _RANGES:
         constraint, words = _RANGES[kind]
         crossed = words.format(detail["ctx"][constraint])
         return f"{key} = {value}: must be {allowed_range(detail['loc'], model) or crossed}"
-    if kind == "finite_number":
-        return f"{key} = {value}: must be a finite number"
-    if kind in ("float_type", "float_parsing", "int_type"):
-        return f"{key} = {value!r}: must be a number"
+    if kind in _PLAIN:
+        return f"{key} = {_shown(value)}: {_PLAIN[kind].format(**detail.get('ctx', {}))}"
     if kind in ("missing_keyword", "model_type", "dict_type", "model_attributes_type"):
-        return f"{key} = {value!r}: must be a table, [{key}]"
-    return f"{key} = {value!r}: {detail['msg'][0].lower()}{detail['msg'][1:]}"
+        return f"{key} = {_shown(value)}: must be a table, [{key}]"
+    return f"{key} = {_shown(value)}: {detail['msg'][0].lower()}{detail['msg'][1:]}"
+
+
+def _missing(detail: ErrorDetails, model: type[BaseModel]) -> str:
+    *parents, name = detail["loc"]
+    key = dotted(detail["loc"])
+    if isinstance(name, int):
+        return f"{dotted(parents)} = {_shown(detail['input'])}: the list is too short"
+    field = _table_at(parents, model).model_fields.get(name)
+    if field is not None and _models_in(field.annotation):
+        return f"the table [{key}] is missing"
+    unit = unit_of(key)
+    return f"{key} is missing; add {name}{f' = <number in {unit}>' if unit else ''}"
+
+
+def _shown(value: object) -> str:
+    """A value as the file might write it, cut to a readable length."""
+    text = str(value).lower() if isinstance(value, bool) else repr(value) if isinstance(value, str) else str(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def _unknown(location: Sequence[str | int], model: type[BaseModel]) -> str:
@@ -74,7 +103,7 @@ def _unknown(location: Sequence[str | int], model: type[BaseModel]) -> str:
     if near:
         unit = unit_of(near[0])
         hint = f"; did you mean {near[0]}{f' (in {unit})' if unit else ''}?"
-    return f"{dotted(location)}: unknown key {where}{hint} Known keys: {', '.join(known)}"
+    return f"{dotted(location)}: unknown key {where}{hint or ';'} known keys: {', '.join(known)}"
 
 
 def _table_at(location: Sequence[str | int], model: type[BaseModel]) -> type[BaseModel]:

@@ -25,10 +25,10 @@ class PublishedTable:
     rows: tuple[PublishedRow, ...]
 
 
-def published_tables(vehicle_file: str) -> tuple[PublishedTable, ...]:
-    """Tables published for the vehicle whose built-in file has this name; empty for any other."""
-    entry = resources.files(__package__) / vehicle_file
-    if not vehicle_file.endswith(".toml") or "/" in vehicle_file or not entry.is_file():
+def published_tables(builtin: str | None) -> tuple[PublishedTable, ...]:
+    """Tables published for a built-in vehicle; empty for any other."""
+    entry = resources.files(__package__) / f"{builtin}.toml"
+    if builtin is None or not entry.is_file():
         return ()
     tables = tomllib.loads(entry.read_text(encoding="utf-8"))["tables"]
     return tuple(

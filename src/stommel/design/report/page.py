@@ -16,7 +16,7 @@ from stommel.design.report.figures import figures
 from stommel.design.report.readings import locus_heading, locus_reading
 from stommel.design.report.verdict import at_stall, nearest_limit, summary, verdict
 from stommel.design.study import DesignStudy
-from stommel.vehicle import PHYSICS, Physics, builtin_names
+from stommel.vehicle import PHYSICS, Physics
 
 _STATES = {
     "u": ("u", "m/s", "m/s²"), "v": ("v", "m/s", "m/s²"), "w": ("w", "m/s", "m/s²"),
@@ -131,8 +131,7 @@ def _context(study: DesignStudy) -> dict[str, Any]:
 
 def _command(study: DesignStudy) -> str:
     """The command that makes this report again."""
-    name = study.vehicle.origin.removesuffix(".toml")
-    vehicle = name if name in builtin_names() else study.vehicle.origin
+    vehicle = study.vehicle.builtin or study.vehicle.origin
     option = "" if study.physics == PHYSICS["paper"] else " --physics full"
     return f"stommel design {quote(vehicle)}{option}"
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from stommel.vehicle.schema.actuators import Actuators
 from stommel.vehicle.schema.budget import Part
@@ -17,11 +17,17 @@ from stommel.vehicle.schema.masses import AddedInertia, Ballast, MovingMass, Rig
 from stommel.vehicle.schema.specification import ReferenceWater, Specification
 
 
+def _one_printable_line(text: str) -> str:
+    if not text.isprintable() or not text.strip():
+        raise ValueError(f"{text!r}: must be one line of printable text")
+    return text
+
+
 class VehicleFile(Table):
     """A glider, as its file describes it."""
 
     format: Literal[1] = 1
-    name: Annotated[str, Field(min_length=1)]
+    name: Annotated[str, Field(max_length=80), AfterValidator(_one_printable_line)]
     summary: str = ""
     notes: tuple[str, ...] = ()
     """Known slips and limits of the sources; the report prints them."""

@@ -203,3 +203,16 @@ def test_unknown_lateral_plane_is_listed() -> None:
     assert next(load_vehicle("rogue").description.unknown_lateral()) == "added_inertia.sway_kg"
     for name in ("zju", "slocum", "seawing"):
         assert list(load_vehicle(name).description.unknown_lateral()) == []
+
+
+def test_with_value_of_a_field_left_at_its_default() -> None:
+    """Any numeric field can be varied, stated in the file or not; a tensor stays symmetric."""
+    zju = load_vehicle("zju")
+    assert zju.value("moving_mass.offset_m") == 0.0
+    assert zju.with_value("moving_mass.offset_m", 0.02).description.moving_mass.offset_m == 0.02
+    assert zju.value("added_inertia.coupling_kg_m.1.2") == 0.0
+    full = vehicle_from_text(changed("[4, 12, 11]", "[[4, 0, 0], [0, 12, 0], [0, 0, 11]]"), "my.toml")
+    tensor = full.with_value("rigid_body.inertia_kg_m2.0.2", 0.5).description.rigid_body.inertia_kg_m2
+    assert tensor[0][2] == tensor[2][0] == 0.5
+    with pytest.raises(FileError, match="no number of this vehicle has this key"):
+        zju.with_value("moving_mass.colour", 1.0)

@@ -71,7 +71,7 @@ class Vehicle:
         FileError
             The key is unknown or not a number.
         """
-        found = _container(self, key)[_last(key)]
+        found = _container(self, _document_with(self, key), key)[_last(key)]
         if isinstance(found, bool) or not isinstance(found, int | float):
             raise _not_a_number(self, key)
         return float(found)
@@ -172,9 +172,29 @@ def _not_a_number(vehicle: Vehicle, key: str) -> FileError:
     )
 
 
-def _container(vehicle: Vehicle, key: str) -> Any:
+def _document_with(vehicle: Vehicle, key: str) -> Mapping[str, Any]:
+    """Return the file's values, with the default of the field at `key` filled in where the file leaves it out."""
+    document: dict[str, Any] = dict(vehicle.document)
+    defaults: Any = vehicle.description.model_dump(exclude_none=True)
+    here: Any = document
+    for part in key.split("."):
+        if not isinstance(here, dict) or not isinstance(defaults, Mapping) or part not in defaults:
+            break
+        here[part] = _copied(here.get(part, defaults[part]))
+        here, defaults = here[part], defaults[part]
+    return document
+
+
+def _copied(value: Any) -> Any:
+    """Copy a table or list one level deep, tuples as lists."""
+    if isinstance(value, Mapping):
+        return dict(value)
+    return [_copied(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+def _container(vehicle: Vehicle, document: Mapping[str, Any], key: str) -> Any:
     """Return the table or list that holds the last part of a dotted key."""
-    here: Any = vehicle.document
+    here: Any = document
     parts = key.split(".")
     for part in parts[:-1]:
         here = _step(here, part)
@@ -197,6 +217,7 @@ def _step(here: Any, part: str) -> Any:
 def _with_value(vehicle: Vehicle, key: str, value: float) -> Mapping[str, Any]:
     vehicle.value(key)  # refuses an unknown key
     parts = key.split(".")
+    twin = _symmetric_twin(parts)
 
     def changed(here: Any, depth: int) -> Any:
         if depth == len(parts):
@@ -206,5 +227,15 @@ def _with_value(vehicle: Vehicle, key: str, value: float) -> Mapping[str, Any]:
         copy[name] = changed(here[name], depth + 1)
         return copy
 
-    document: Mapping[str, Any] = changed(vehicle.document, 0)
+    document: Mapping[str, Any] = changed(_document_with(vehicle, key), 0)
+    if twin is not None:
+        parts = twin
+        document = changed(document, 0)
     return document
+
+
+def _symmetric_twin(parts: list[str]) -> list[str] | None:
+    """Return the mirror of an off-diagonal entry of a tensor: both change together."""
+    if len(parts) < 3 or not parts[-3].endswith("inertia_kg_m2") or not (parts[-1].isdigit() and parts[-2].isdigit()):
+        return None
+    return [*parts[:-2], parts[-1], parts[-2]] if parts[-1] != parts[-2] else None

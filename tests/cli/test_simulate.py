@@ -111,7 +111,10 @@ def test_unwritable_output_is_refused(stommel: Command, plan: Path) -> None:
     assert "cannot be written" in done.err
 
 
-def test_interruption_leaves_no_file(plan: Path, tmp_path: Path) -> None:
+def test_interruption_leaves_no_file(stommel: Command, plan: Path, tmp_path: Path) -> None:
+    assert stommel("simulate", plan, "--json").status == 0  # compiles first, so that the signal meets a flying mission
+    for written in tmp_path.glob("*.nc"):
+        written.unlink()
     program = Path(sys.executable).with_name("stommel")
     long = plan.read_text().replace("duration_days = 0.05", "duration_days = 300")
     plan.write_text(long.replace('name = "a few dives"', 'name = "long"\nchanges = { "battery.capacity_ah" = 5000 }'))

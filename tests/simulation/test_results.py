@@ -91,8 +91,9 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 """
 
 
-def test_memory_of_twenty_days(tmp_path: Path, quarter_day: Flown) -> None:
-    """Flown, described and written in less than 500 MB; machine code comes from the cache that `quarter_day` filled."""
-    found = subprocess.run([sys.executable, "-c", MEMORY, tmp_path / "m.nc"], capture_output=True, text=True,
-                           check=True)  # fmt: skip
+def test_memory_of_twenty_days(tmp_path: Path) -> None:
+    """Flown, described and written in less than 500 MB once the machine code is kept: the second run of two."""
+    for _ in range(2):
+        found = subprocess.run([sys.executable, "-c", MEMORY, tmp_path / "m.nc"], capture_output=True, text=True,
+                               check=True)  # fmt: skip
     assert float(found.stdout) < 500.0

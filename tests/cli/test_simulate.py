@@ -116,12 +116,14 @@ def test_interruption_leaves_no_file(stommel: Command, plan: Path, tmp_path: Pat
     for written in tmp_path.glob("*.nc"):
         written.unlink()
     program = Path(sys.executable).with_name("stommel")
-    long = plan.read_text().replace("duration_days = 0.05", "duration_days = 300")
-    plan.write_text(long.replace('name = "a few dives"', 'name = "long"\nchanges = { "battery.capacity_ah" = 5000 }'))
+    # a goal that is months away, in an ocean without an edge
+    long = plan.read_text().replace("duration_days = 0.05", "duration_days = 700")
+    long = long.replace("latitude_deg = 28.4", "latitude_deg = 85.0").replace("east_china_sea", "still")
+    plan.write_text(long.replace('name = "a few dives"', 'name = "long"\nchanges = { "battery.capacity_ah" = 50000 }'))
     running = subprocess.Popen(
         [program, "simulate", plan, "--output", tmp_path / "m.nc"], stderr=subprocess.PIPE, stdout=subprocess.PIPE
     )
-    time.sleep(8.0)
+    time.sleep(6.0)
     running.send_signal(signal.SIGINT)
     _, err = running.communicate(timeout=120)
     assert running.returncode == 130, err

@@ -19,13 +19,15 @@ REPEATS = 3
 FINER = 10
 
 _MEMORY = """
-import resource, sys
+import sys
+from pathlib import Path
 from stommel.simulation.mission import fly_mission, load_mission
 from stommel.simulation.results import dataset_of, write_netcdf
 from stommel.simulation.shipped import mission_path
 flown = fly_mission(load_mission(mission_path(sys.argv[1])))
 dataset_of(flown)
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+peak = next(line for line in Path("/proc/self/status").read_text().splitlines() if line.startswith("VmHWM"))
+print(int(peak.split()[1]) / 1024)
 """
 
 

@@ -25,7 +25,7 @@ SWEEP = 'kind = "sweep"\n[[parameters]]\n'
         (SWEEP + 'key = "mission.dives.pitch_deg"\nvalues = [35, 70]', ["mission.dives.pitch_deg = 70", "60"]),
         (SWEEP + 'key = "mission.dives.depth_m"\nfrom = 1\nto = 2', ["from, to and steps"]),
         (SWEEP + 'key = "mission.dives.depth_m"\nvalue = [1]', ["value", "did you mean values"]),
-        X,
+        ('kind = "sweep"', ["[parameters] is missing"]),
         ('kind = "monte_carlo"\n' + UNIFORM, ["runs is missing"]),
         ('kind = "monte_carlo"\nruns = -3\n' + UNIFORM, ["runs = -3", "at least 1"]),
         ('kind = "sobol"\nruns = 12\n' + UNIFORM, ["runs = 12", "power of 2", "16"]),

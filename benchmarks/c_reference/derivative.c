@@ -138,12 +138,12 @@ stalled_flow(const params *p, coefficients c, double alpha, double beta, double 
     const double a = separation(p, alpha), b = separation(p, beta);
     const double normal = p->K_N * f.sin_a * fabs(f.sin_a);
     const double in_plane = blend(b, 1.0, f.cos_b * f.cos_b);
-    const double astern = blend(a, 1.0, f.cos_a);
+    const double astern = blend(a, 1.0, f.cos_a) * blend(b, 1.0, f.cos_b);
     const double D = blend(a, c.D, p->K_D0 + normal * f.sin_a);
     const double broadside = p->K_N * f.sin_b * fabs(f.sin_b);
     return (coefficients){
         .D = blend(b, D, D * f.cos_b * f.cos_b + broadside * f.sin_b),
-        .S = blend(b, p->S_beta * beta, broadside) + astern * p->S_delta * delta_r,
+        .S = blend(b, p->S_beta * beta, broadside * f.cos_b) + astern * p->S_delta * delta_r,
         .L = in_plane * blend(a, c.L, normal * f.cos_a),
         .K = p->K_beta * blend(b, beta, f.sin_b * f.cos_b) + astern * p->K_delta * delta_r,
         .M = in_plane * blend(a, c.M, (p->M_zero + p->M_alpha * f.sin_a) * f.cos_a),
@@ -187,7 +187,11 @@ static inline wrench viscous(const params *p, vec3 v_r, vec3 omega, double delta
     const vec3 moment = v3((p->D_omega.x * V_square + p->D_omega_V.x * V) * omega.x + c.K * V_square,
                            (p->D_omega.y * V_square + p->D_omega_V.y * V) * omega.y + c.M * V_square,
                            (p->D_omega.z * V_square + p->D_omega_V.z * V) * omega.z + c.N * V_square);
-    return (wrench){force, p->moments_in_flow_frame != 0.0 ? flow_to_body(moment, f) : moment};
+    if (p->moments_in_flow_frame == 0.0)
+        return (wrench){force, moment};
+    const vec3 turned = flow_to_body(moment, f);
+    const double a = separation(p, alpha), b = separation(p, beta);
+    return (wrench){force, add(turned, scale(a + b - a * b, sub(moment, turned)))};
 }
 
 /* x: X 0:3, Q 3:7, p 7:10, h 10:13, r_px 13, p_px 14, V_b 15. The moving mass is locked or driven unless `free`. */
@@ -278,13 +282,15 @@ static inline void rates(const params *p, const double *x, const controls *u, co
     const double V_veh = p->V_0 * (1.0 - p->kappa * w->P + p->alpha_T * (w->T - p->T_0)) + V_b;
     const double W = (p->m - w->rho * V_veh) * p->g;
     const vec3 moment_arm = sub(add(p->s_0, add(m_r, oil)), scale(w->rho * V_b, b));
-    const vec3 f_U = scale(w->rho * V_veh, mat_tmul(&R, w->DU_Dt));
+    const vec3 a_U = mat_tmul(&R, w->DU_Dt);
+    const vec3 f_U = scale(w->rho * V_veh, a_U);
+    const vec3 m_bl = cross(scale(w->rho * V_b, b), a_U);
     const vec3 p_f = add(sym_mul(&p->M_f, v_r), mat_tmul(&p->C_f, omega));
 
     const vec3 X_dot = mat_mul(&R, v);
     const vec3 p_dot = add(add(cross(momentum, omega), scale(W, zeta)), add(f.force, f_U));
     const vec3 h_dot = add(add(cross(angular, omega), cross(momentum, v)),
-                           add(scale(p->g, cross(moment_arm, zeta)), sub(f.moment, cross(p_f, U))));
+                           add(scale(p->g, cross(moment_arm, zeta)), add(sub(f.moment, cross(p_f, U)), m_bl)));
 
     /* attitude, pulled back to unit length */
     const double *q = x + 3;

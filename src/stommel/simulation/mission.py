@@ -205,13 +205,14 @@ def fly_mission(mission: Mission, *, progress: Progress | None = None) -> Flown:
     column = new_column(grid, 1.2 * plan.dives.depth_m + 20.0, _levels(plan))
     piece = max(1, round(_PIECE_DAYS * 86400.0 / loop.control_step))
     outcome, done = RUNNING, 0
+    vehicle, sensors, dives = pack(mission.vehicle, PHYSICS[plan.physics]), sensors_of(plan), _dive_plan(mission, plant)
+    pitch_law, heading_law, waypoints = _pitch_law(plan), _heading_law(plan), _waypoints(plan)
     while done < ticks and outcome == RUNNING:
         until = min(ticks, done + piece)
         outcome = fly(
-            pack(mission.vehicle, PHYSICS[plan.physics]), plant, sensors_of(plan), loop, _dive_plan(mission, plant),
-            _pitch_law(plan), _heading_law(plan), table, _waypoints(plan), plan.guidance.acceptance_radius_m,
-            plan.guidance.lookahead_m, grid, density, column, x, software, world, noise, done, until, record,
-            surfacings, events, counts,
+            vehicle, plant, sensors, loop, dives, pitch_law, heading_law, table, waypoints,
+            plan.guidance.acceptance_radius_m, plan.guidance.lookahead_m, grid, density, column, x, software, world,
+            noise, done, until, record, surfacings, events, counts,
         )  # fmt: skip
         done = until
         if progress is not None:

@@ -46,7 +46,11 @@ format: $(VENV)/test.stamp
 test: check
 	$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
-bench: $(VENV)/test.stamp
+$(VENV)/bench.stamp: $(VENV)/test.stamp
+	@$(PIP) install --quiet --constraint constraints.txt --editable '.[bench]' && touch $@ || \
+	  echo "make bench: the peers cannot be installed; their figures are skipped" >&2
+
+bench: $(VENV)/bench.stamp
 	$(BIN)/python benchmarks/run.py
 
 docs: $(VENV)/test.stamp

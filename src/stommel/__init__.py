@@ -16,6 +16,7 @@ _WHERE = {
     "Vehicle": "stommel.vehicle",
     "builtin_names": "stommel.vehicle",
     "load_vehicle": "stommel.vehicle",
+    "Ocean": "stommel.ocean",
     "SteadyFlight": "stommel.analysis",
     "UnreachableFlightError": "stommel.analysis",
     "authority": "stommel.analysis",
@@ -37,6 +38,7 @@ _WHERE = {
 __all__ = [
     "FULL",
     "PAPER",
+    "Ocean",
     "Physics",
     "SteadyFlight",
     "StommelError",
@@ -79,6 +81,7 @@ if TYPE_CHECKING:
     from stommel.design.report import write_report
     from stommel.design.study import design_study
     from stommel.errors import StommelError
+    from stommel.ocean import Ocean
     from stommel.vehicle import FULL, PAPER, Physics, Vehicle, builtin_names, load_vehicle
 
 

@@ -167,9 +167,9 @@ def test_density_of_the_file_is_teos_10(ocean: Ocean) -> None:
     grid = ocean.grid()
     assert ocean.table.largest_error < 1e-5
     wet = grid.levels > 0
-    S = grid.water[:, wet][:, :, S_A].astype(float)
-    heat = grid.water[:, wet][:, :, CT].astype(float)
-    p = np.broadcast_to(gsw.p_from_z(-grid.depths, degrees(1.3)), S.shape)
+    S = grid.nodes.water[:, wet][:, :, S_A].astype(float)
+    heat = grid.nodes.water[:, wet][:, :, CT].astype(float)
+    p = np.broadcast_to(gsw.p_from_z(-grid.nodes.depths, degrees(1.3)), S.shape)
     out = np.empty(S.size)
     densities(ocean.table, S.ravel(), heat.ravel(), p.ravel().copy(), out)
     assert np.abs(out - gsw.rho(S, heat, p).ravel()).max() < 1e-4

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Command
+from tests.ocean.conftest import regular_sea
 
 GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "ocean.md"
 
@@ -47,9 +48,27 @@ def test_terminal_fits_80_columns(stommel: Command) -> None:
         (("pool", "--at", "30"), ["--at '30'"]),
         (("pool", "--at", "95,3"), ["latitude must be between -90 and 90"]),
         (("pool", "--at", "30,120", "--depth", "4"), ["depth = 4 m", "below the bottom at 3.5 m"]),
-        (("pool", "--at", "30,120", "--depth", "-4"), ["above the surface"]),
+        (("pool", "--at", "30,120", "--depth", "-4"), ["--depth -4", "between 0"]),
         (("pool", "--time", "soon"), ["'soon'"]),
+        (("pool", "--at", "nan,3"), ["--at 'nan,3'"]),
+        (("pool", "--at", "30,120", "--depth", "nan"), ["--depth nan", "between 0 and 11300"]),
+        (("pool", "--depth", "1e9"), ["--depth 1e+09"]),
+        (("still", "--time", "9999-99-99"), ["'9999-99-99'"]),
         (("gyre", "--at", "0,0"), ["outside the ocean", "latitude 28"]),
+        (("gyre", "--at", "0,0", "--outside", "zero"), ["outside = 'zero'", "hold"]),
+        (("gyre", "--at", "0,0", "--climatology", "pool"), ["climatology: is only used with outside"]),
+        (("gyre", "--outside", "climatology", "--climatology", "no.nc"), ["no.nc", "no such file"]),
+        (("gyre", "--at", "0,0", "--plot", "map"), ["outside the ocean"]),
+        (("east_china_sea", "--plot", "map", "--depth", "3000"), ["its deepest bottom is at 1200 m"]),
+        (("gyre", "pool"), ["an analytic ocean stands alone", "pool"]),
+        (("gyre", "--bounds", "1,2,3,4"), ["--bounds: gyre is an analytic ocean"]),
+        (("gyre", "--name", "temperature=t"), ["--name: gyre is an analytic ocean"]),
+        (("sea.nc", "--bounds", "1,2,3"), ["--bounds '1,2,3'", "south, north, west, east"]),
+        (("sea.nc", "--bounds", "1,2,3,inf"), ["--bounds '1,2,3,inf'"]),
+        (("sea.nc", "--between", "2016"), ["--between '2016'", "two times"]),
+        (("sea_*.nc",), ["sea_*.nc", "no file matches"]),
+        (("folder/",), ["no such file"]),
+        (("..",), ["is a folder"]),
     ],
 )
 def test_refused(stommel: Command, arguments: tuple[str, ...], words: list[str]) -> None:
@@ -69,6 +88,36 @@ def test_land_and_time_outside_a_file(stommel: Command, arctic20: Path) -> None:
         found = stommel("ocean", "show", arctic20, *arguments)
         assert (found.status, found.out) == (2, "")
         assert word in found.err
+
+
+def test_several_files_a_region_and_a_climatology(stommel: Command, tmp_path: Path) -> None:
+    data = regular_sea()
+    data.isel(time=[0, 1]).to_netcdf(tmp_path / "sea_1.nc")
+    data.isel(time=[2]).to_netcdf(tmp_path / "sea_2.nc")
+    found = stommel(
+        "ocean", "show", "sea_1.nc", "sea_2.nc", "--bounds", "11,14,178,182",
+        "--between", "2020-03-01,2020-03-01T12:00", "--outside", "climatology", "--climatology", "two_layer",
+        "--at", "30,178", "--depth", "100", "--json",
+    )  # fmt: skip
+    assert found.status == 0, found.err
+    assert found.json["times"] == 3
+    assert found.json["nodes"] == [5, 6]
+    assert found.json["outside"] == "climatology"
+    assert found.json["sample"]["held"] is True
+    assert found.json["sample"]["temperature_c"] == pytest.approx(10.0, abs=0.05)
+    assert 1450.0 < found.json["sample"]["sound_speed_m_s"] < 1520.0
+    assert -2.0 < found.json["sample"]["freezing_temperature_c"] < -1.8
+    assert found.json["notes"]["climatology"].startswith("two_layer, reached 50 km and 24 h")
+
+
+def test_a_profile(stommel: Command, tmp_path: Path) -> None:
+    (tmp_path / "cast.csv").write_text("Z,temperature_c,salinity_psu\n0,28,33.8\n200,15,34.6\n")
+    found = stommel(
+        "ocean", "show", "cast.csv", "--name", "depth_m=Z", "--set", "bottom_m=900", "--at", "28,126", "--plot", "cast"
+    )
+    assert found.status == 0, found.err
+    assert "everywhere the same" in found.out
+    assert (tmp_path / "cast.png").stat().st_size > 10_000
 
 
 def test_a_plot_that_cannot_be_written(stommel: Command, tmp_path: Path) -> None:

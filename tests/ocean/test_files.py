@@ -103,8 +103,8 @@ def test_bounds_of_time_widen_the_range(sea_file: Writer) -> None:
 
     path = sea_file(bound)
     ocean = Ocean.open(path)
-    assert ocean.data.time_range.tolist() == [START - 6 * 3600.0, START + 12 * 3600.0]
-    assert ocean.data.times.tolist() == [START - 3 * 3600.0, START + 3 * 3600.0, START + 9 * 3600.0]
+    assert ocean.data.nodes.time_range.tolist() == [START - 6 * 3600.0, START + 12 * 3600.0]
+    assert ocean.data.nodes.times.tolist() == [START - 3 * 3600.0, START + 3 * 3600.0, START + 9 * 3600.0]
     # the mean of the first interval speaks for its beginning too, and no longer
     assert at(path, -6.0, 12.0, 179.0, 0.0).current_east == pytest.approx(0.1, abs=1e-6)
     with pytest.raises(OutsideOceanError):
@@ -126,7 +126,7 @@ def test_land_and_the_levels_below_the_bottom(sea_file: Writer) -> None:
 def test_bounds_and_times_cut_the_file(sea_file: Writer) -> None:
     path = sea_file()
     part = Ocean.open(path, bounds=(12.4, 13.5, 179.4, -178.5), between=(START + 3600.0, START + 5 * 3600.0))
-    assert len(part.data.times) == 2
+    assert len(part.data.nodes.times) == 2
     assert part.data.x.shape == (3, 4)
     whole = Ocean.open(path)
     for place in ((12.5, 179.5, 20.0), (13.4, -178.6, 60.0)):

@@ -126,7 +126,7 @@ def test_a_vehicle_that_crosses_the_pole_sees_one_current(tmp_path) -> None:
     full = np.ones((2, 7, 7))
     frame = Frame(np.zeros(1), (-np.inf, np.inf), np.array([0.0, 100.0]), latitude, longitude, 1e3 * full[0])
     slot = Slot(2.0 * full, 35.0 * full, 2.0 * full, 0.2 * east * full, 0.2 * north * full)
-    grid = ocean_grid(frame, [slot], "error", "error")
+    grid = ocean_grid(frame, [slot])
     table = density_table((34.0, 36.0), (1.0, 3.0), (0.0, 200.0))
     ocean = Ocean("pole", grid)
     assert table.largest_error < 1e-5

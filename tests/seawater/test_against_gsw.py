@@ -30,6 +30,32 @@ def test_density_table_meets_its_stated_error(ranges) -> None:
     assert error < 1e-4
 
 
+@pytest.mark.parametrize("ranges", RANGES)
+def test_sound_speed_and_freezing_meet_their_stated_errors(ranges) -> None:
+    """Stated: 1e-3 m/s and 1e-3 deg C, below what a CTD resolves; at random points, none of the fit's."""
+    random = np.random.default_rng(8)
+    S_A, CT, p = (random.uniform(low, high, 200_000) for low, high in ranges)
+    out = np.empty(S_A.size)
+    speed, freezing = seawater.sound_speed_table(*ranges), seawater.freezing_table(ranges[0], ranges[2])
+    for table, exact, bar in (
+        (speed, gsw.sound_speed(S_A, CT, p), 1e-3),
+        (freezing, gsw.t_freezing(S_A, p, 0.0), 1e-3),
+    ):
+        densities(table, S_A, CT, p, out)
+        error = np.abs(out - exact).max()
+        assert table.largest_error < bar
+        assert error < 1.05 * table.largest_error + 1e-9
+
+
+def test_freezing_knows_the_air_in_the_water() -> None:
+    table = seawater.freezing_table((30.0, 36.0), (0.0, 500.0), saturation=1.0)
+    out = np.empty(1)
+    densities(table, np.array([35.16504]), np.array([0.0]), np.array([0.0]), out)
+    assert out[0] == pytest.approx(-1.9217, abs=2e-3)
+    with pytest.raises(seawater.DensityTableError, match="saturation = 2"):
+        seawater.freezing_table((30.0, 36.0), (0.0, 500.0), saturation=2.0)
+
+
 def test_density_table_holds_beyond_its_range() -> None:
     table = seawater.density_table((34.0, 35.0), (10.0, 20.0), (0.0, 100.0))
     out = np.empty(2)
@@ -46,9 +72,10 @@ def test_density_table_holds_beyond_its_range() -> None:
         (((0.0, 42.0), (-2.0, 40.0), (0.0, 12000.0)), 1e-13, "cannot be reached"),
     ],
 )
-def test_impossible_tables_are_refused(ranges, tolerance, words) -> None:
+@pytest.mark.parametrize("make", [seawater.density_table, seawater.sound_speed_table])
+def test_impossible_tables_are_refused(make, ranges, tolerance, words) -> None:
     with pytest.raises(seawater.DensityTableError, match=words):
-        seawater.density_table(*ranges, tolerance=tolerance)
+        make(*ranges, tolerance=tolerance)
 
 
 def test_check_values_of_the_teos_10_toolbox() -> None:

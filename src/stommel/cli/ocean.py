@@ -17,27 +17,52 @@ if TYPE_CHECKING:
 ocean_app = typer.Typer(no_args_is_help=True, help="The ocean around a mission: what it covers, values, maps.")
 
 
+_DEEPEST_M = 11300.0
+"""As `stommel.ocean.answers.DEEPEST`, which is not imported at the start."""
+
+
 class OceanOptionError(StommelError):
     """An option that does not say what it should."""
 
 
 @ocean_app.command("show")
 def show(
-    ocean: Annotated[str, typer.Argument(metavar="FILE|NAME", help="A CF NetCDF file, or an analytic ocean.")],
+    ocean: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="OCEAN", help="CF NetCDF file or files, a profile (.csv), or the name of an analytic ocean."
+        ),
+    ],
     at: Annotated[str | None, typer.Option("--at", metavar="LAT,LON", help="Place to ask for [deg].")] = None,
     time: Annotated[
         str | None, typer.Option("--time", help="ISO 8601 time, UTC; the ocean's first if left out.")
     ] = None,
     depth: Annotated[float, typer.Option("--depth", help="Depth [m].")] = 0.0,
     parameter: Annotated[
-        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Parameter of an analytic ocean.")
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help="Parameter of an analytic ocean or of a profile's."),
     ] = None,
     names: Annotated[
-        list[str] | None, typer.Option("--name", metavar="WHAT=VARIABLE", help="Variable of a file, if not found.")
+        list[str] | None,
+        typer.Option("--name", metavar="WHAT=VARIABLE", help="Variable of a file, or column of a profile."),
     ] = None,
-    outside: Annotated[
-        str, typer.Option("--outside", help="Beyond a file's data: error, hold or climatology.")
-    ] = "error",
+    bounds: Annotated[
+        str | None, typer.Option("--bounds", metavar="S,N,W,E", help="Region of a file to read [deg].")
+    ] = None,
+    between: Annotated[
+        str | None, typer.Option("--between", metavar="FIRST,LAST", help="Times of a file to read.")
+    ] = None,
+    outside: Annotated[str, typer.Option("--outside", help="Beyond the data: error, hold or climatology.")] = "error",
+    outside_time: Annotated[
+        str | None, typer.Option("--outside-time", help="The same for times, if different.")
+    ] = None,
+    climatology: Annotated[
+        str | None,
+        typer.Option("--climatology", metavar="OCEAN", help="What climatology is; the mean of the data if left out."),
+    ] = None,
+    at_rest: Annotated[
+        bool, typer.Option("--at-rest", help="Read no currents: a file of temperature and salinity alone.")
+    ] = False,
     plot: Annotated[
         Path | None, typer.Option("--plot", metavar="STEM", help="Map to write as PNG and SVG, without its ending.")
     ] = None,
@@ -49,9 +74,20 @@ def show(
     """
     from stommel.ocean.times import seconds
 
-    found = _open(ocean, parameter or [], names or [], outside)
     place = _place(at) if at is not None else None
-    when = seconds(time) if time is not None else float(found.data.times[0])
+    when = seconds(time) if time is not None else None
+    if not 0.0 <= depth <= _DEEPEST_M:
+        raise OceanOptionError(f"--depth {depth:g}: must be between 0 and {_DEEPEST_M:g} m")
+    choice = {
+        "names": _pairs(names or [], "--name"),
+        "parameters": _pairs(parameter or [], "--set"),
+        "bounds": _bounds(bounds),
+        "between": _between(between),
+        "at_rest": at_rest,
+    }
+    policies = {"outside": outside, "outside_time": outside_time, "climatology": climatology}
+    found = _open(ocean, choice, policies)
+    when = float(found.data.nodes.times[0]) if when is None else when
     sample = found.at(when, *place, depth) if place is not None else None
     summary = found.summary()
     plots: list[Path] = []
@@ -94,19 +130,28 @@ def _defaults(kind: Any) -> dict[str, float | None]:
     return {key: field.default for key, field in kind.model_fields.items()}
 
 
-def _open(name: str, parameters: list[str], names: list[str], outside: str) -> "Ocean":
+def _open(given: list[str], choice: dict[str, Any], policies: dict[str, Any]) -> "Ocean":
+    """Open the ocean of that name, or else the files."""
     from stommel.ocean import Ocean
     from stommel.ocean.analytic import ANALYTIC
 
-    if Path(name).exists() or Path(name).suffix:
-        if parameters:
-            raise OceanOptionError(f"--set {parameters[0]}: {name} is a file; only an analytic ocean has parameters")
-        return Ocean.open(name, names=_pairs(names, "--name"), outside=outside)
-    if name not in ANALYTIC:
+    if given[0] in ANALYTIC:
+        if len(given) > 1:
+            raise OceanOptionError(f"{given[0]}: an analytic ocean stands alone; {given[1]} is too much")
+        unfit = [key for key in ("names", "bounds", "between", "at_rest") if choice[key]]
+        if unfit:
+            option = "--" + unfit[0].removesuffix("s" if unfit[0] == "names" else "").replace("_", "-")
+            raise OceanOptionError(f"{option}: {given[0]} is an analytic ocean; only a file has this option")
+        return Ocean.analytic(given[0], **choice["parameters"]).with_outside(**policies)
+    if len(given) == 1 and not _looks_like_a_file(given[0]):
         raise OceanOptionError(
-            f"ocean {name!r} is neither an analytic ocean nor a file; analytic: {', '.join(ANALYTIC)}"
+            f"ocean {given[0]!r} is neither an analytic ocean nor a file; analytic: {', '.join(ANALYTIC)}"
         )
-    return Ocean.analytic(name, **_pairs(parameters, "--set"))
+    return Ocean.open(given, **choice, **policies)
+
+
+def _looks_like_a_file(name: str) -> bool:
+    return Path(name).exists() or bool(Path(name).suffix) or any(mark in name for mark in "*?[/\\")
 
 
 def _pairs(texts: list[str], option: str) -> dict[str, str]:
@@ -117,11 +162,36 @@ def _pairs(texts: list[str], option: str) -> dict[str, str]:
 
 
 def _place(text: str) -> tuple[float, float]:
-    try:
-        latitude, longitude = (float(part) for part in text.split(","))
-    except ValueError:
-        raise OceanOptionError(f"--at {text!r}: must be a latitude and a longitude like 28.2,126.6") from None
+    latitude, longitude = _numbers(text, 2, f"--at {text!r}: must be a latitude and a longitude like 28.2,126.6")
     return latitude, longitude
+
+
+def _bounds(text: str | None) -> tuple[float, float, float, float] | None:
+    if text is None:
+        return None
+    south, north, west, east = _numbers(
+        text, 4, f"--bounds {text!r}: must be south, north, west, east like 25,32,120,130"
+    )
+    return south, north, west, east
+
+
+def _numbers(text: str, count: int, refusal: str) -> list[float]:
+    try:
+        found = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise OceanOptionError(refusal) from None
+    if len(found) != count or not all(abs(value) <= 720.0 for value in found):
+        raise OceanOptionError(refusal)
+    return found
+
+
+def _between(text: str | None) -> tuple[str, str] | None:
+    if text is None:
+        return None
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise OceanOptionError(f"--between {text!r}: must be two times like 2016-02-01,2016-02-05T12:00")
+    return parts[0], parts[1]
 
 
 def _figure(found: "Ocean", when: float, depth: float, place: tuple[float, float] | None) -> "Figure":
@@ -145,6 +215,8 @@ def _as_row(sample: "Sample") -> dict[str, Any]:
         "temperature_c": sample.temperature,
         "conservative_temperature_c": sample.conservative_temperature,
         "absolute_salinity_g_kg": sample.absolute_salinity,
+        "sound_speed_m_s": sample.sound_speed,
+        "freezing_temperature_c": sample.freezing_temperature,
         "current_east_m_s": sample.current_east,
         "current_north_m_s": sample.current_north,
         "bottom_m": None if bottom == float("inf") else bottom,
@@ -159,10 +231,12 @@ def _show_sample(sample: "Sample", place: tuple[float, float], depth: float) -> 
         "pressure": number(row["pressure_dbar"], 3, "dbar"),
         "temperature": number(row["temperature_c"], 4, "deg C in situ"),
         "salinity": number(row["absolute_salinity_g_kg"], 4, "g/kg"),
+        "sound speed": number(row["sound_speed_m_s"], 2, "m/s"),
+        "freezes at": number(row["freezing_temperature_c"], 3, "deg C in situ"),
         "current": f"{number(row['current_east_m_s'], 4)} m/s east, {number(row['current_north_m_s'], 4)} m/s north",
         "bottom": "none" if row["bottom_m"] is None else number(row["bottom_m"], 1, "m"),
     }
-    notes = ["outside the data: held by the ocean's policy"] if sample.held else []
+    notes = ["outside the data: answered by the ocean's policy"] if sample.held else []
     show_values(f"At {place[0]:g}, {place[1]:g}, {depth:g} m", values, notes)
 
 
@@ -174,7 +248,7 @@ def _show_summary(row: dict[str, Any]) -> None:
     values = {
         "time": f"{row['first_time']} to {row['last_time']}, {row['times']} slots"
         if row["first_time"] != "always"
-        else "always",
+        else (f"every year the same, {row['times']} slots" if row["every_year"] else "always"),
         "latitude": span("latitude_deg", 3, "deg"),
         "longitude": span("longitude_deg", 3, "deg"),
         "nodes": f"{row['nodes'][0]} x {row['nodes'][1]}, {row['wet_nodes']} with water"

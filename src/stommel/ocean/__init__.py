@@ -3,7 +3,8 @@
 Compiled code uses `stommel.ocean.grid` and `stommel.ocean.column`.
 """
 
+from stommel.ocean.answers import Sample
 from stommel.ocean.errors import BelowBottomError, LandError, OutsideOceanError, UnknownOceanError
-from stommel.ocean.ocean import Ocean, Sample
+from stommel.ocean.ocean import Ocean
 
 __all__ = ["BelowBottomError", "LandError", "Ocean", "OutsideOceanError", "Sample", "UnknownOceanError"]

@@ -3,8 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
-
 from stommel.ocean.east_china_sea import EastChinaSea
 from stommel.ocean.errors import UnknownOceanError
 from stommel.ocean.everywhere import (
@@ -15,10 +13,10 @@ from stommel.ocean.everywhere import (
     Tide,
     TwoLayer,
     Uniform,
+    made,
 )
 from stommel.ocean.grid import OceanGrid
 from stommel.ocean.gyre import Gyre
-from stommel.vehicle.messages import sentence
 
 ANALYTIC: dict[str, type[Any]] = {
     "still": Still,
@@ -44,19 +42,6 @@ def build_analytic(name: str, parameters: Mapping[str, Any]) -> tuple[OceanGrid,
     """
     if name not in ANALYTIC:
         raise UnknownOceanError(f"ocean {name!r}: unknown analytic ocean; there are: {', '.join(ANALYTIC)}")
-    kind = ANALYTIC[name]
-    try:
-        ocean = kind(**parameters)
-    except ValidationError as error:
-        raise UnknownOceanError(_first(name, kind, error)) from None
+    ocean = made(ANALYTIC[name], f"ocean {name!r}", parameters)
     grid: OceanGrid = ocean.grid()
     return grid, dict(ocean.notes())
-
-
-def _first(name: str, kind: type[BaseModel], error: ValidationError) -> str:
-    details = sorted(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
-    detail = details[0]
-    if detail["type"] == "extra_forbidden":
-        known = ", ".join(kind.model_fields)
-        return f"ocean {name!r}: unknown parameter {detail['loc'][0]}; parameters: {known}"
-    return f"ocean {name!r}: {sentence(detail, kind)}"

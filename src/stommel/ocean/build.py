@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from stommel.ocean.chart import Chart, centre_of, chart_at, project_nodes
 from stommel.ocean.errors import UnknownOceanError
-from stommel.ocean.grid import CLIMATOLOGY, CT, FIELDS, POLICIES, S_A, U_X, U_Y, OceanGrid, T
+from stommel.ocean.grid import CT, ERROR, FIELDS, S_A, U_X, U_Y, Nodes, OceanGrid, T
 
 _WIDEST = np.radians(120.0)
 """Farthest that a node may lie from the centre of the plane; at 180 degrees it would lie at infinity."""
@@ -31,7 +31,7 @@ class Frame:
     longitude: Array
     """Of the nodes (j, i) [rad]."""
     bottom: Array | None
-    """Depth of the bottom (j, i) [m]; nan where unknown. None: the deepest level with water."""
+    """Depth of the bottom (j, i) [m]; nan, or above the surface, where unknown. None: the deepest level with water."""
     tide_speed: Array = field(default_factory=lambda: np.zeros(0))
     """[rad/s]"""
     tide: Array | None = None
@@ -40,6 +40,8 @@ class Frame:
     """Depths of a density given directly [m]."""
     profile_rho: Array = field(default_factory=lambda: np.zeros(0))
     """That density [kg/m3]."""
+    period: float = np.inf
+    """Times repeat after so long [s]."""
 
 
 @dataclass(frozen=True)
@@ -58,41 +60,50 @@ class Slot:
     """[m/s]"""
 
 
-def ocean_grid(frame: Frame, slots: Iterable[Slot], outside_space: str, outside_time: str) -> OceanGrid:
+def ocean_grid(frame: Frame, slots: Iterable[Slot], *, mean_slot: bool = False) -> OceanGrid:
     """Build the grid; one slot at a time is in memory at double precision.
+
+    With `mean_slot` there is room for the mean over time after the last slot. Outside its data the ocean refuses; other
+    policies are set by `stommel.ocean.outside`.
 
     Raises
     ------
     UnknownOceanError
-        A policy is unknown, the nodes reach too far around the Earth, or no node has water.
+        The nodes reach too far around the Earth, or no node has water.
     """
-    policies = [_policy(outside_space), _policy(outside_time)]
     chart, plane = _plane(frame)
-    shape = frame.latitude.shape
-    extra = 1 if policies[1] == CLIMATOLOGY else 0
-    water = np.full((len(frame.times) + extra, *shape, FIELDS, len(frame.depths)), np.nan, dtype=np.float32)
+    count = len(frame.times)
+    again = 1 if np.isfinite(frame.period) else 0
+    shape = (count + again + int(mean_slot), *frame.latitude.shape, FIELDS, len(frame.depths))
+    water = np.full(shape, np.nan, dtype=np.float32)
     for n, slot in enumerate(slots):
         _write(water[n], slot, plane)
-    count = len(frame.times)
     levels = _levels(water[:count])
     if not levels.any():
         raise UnknownOceanError("the ocean has no place with temperature, salinity and currents at all of its times")
     _carry_down(water[:count], levels)
-    if extra:
-        water[count] = water[:count].mean(axis=0)
-    bottom = _bottom(frame, levels)
-    mean = _mean(water[:count], levels, plane)
-    return OceanGrid(
-        frame.times, np.array(frame.time_range, dtype=np.float64), frame.depths, plane[0], plane[1], water, levels,
-        bottom, mean, float(bottom.max()), frame.tide_speed, _plane_tide(frame, plane), frame.profile_depths,
-        frame.profile_rho, chart, *policies,
+    times = frame.times
+    if again:
+        water[count] = water[0]
+        times = np.append(times, times[0] + frame.period)
+    if mean_slot:
+        water[-1] = water[:count].mean(axis=0)
+    nodes = Nodes(
+        times, frame.period, frame.depths, plane[0], plane[1], water, levels, _bottom(frame, levels), frame.tide_speed,
+        _plane_tide(frame, plane), frame.profile_depths, frame.profile_rho, chart,
+        np.array(frame.time_range, dtype=np.float64),
     )  # fmt: skip
+    return OceanGrid(nodes, ERROR, ERROR, nothing(chart), ERROR, 0.0, 0.0)
 
 
-def _policy(name: str) -> int:
-    if name not in POLICIES:
-        raise UnknownOceanError(f"outside = {name!r}: must be one of {', '.join(POLICIES)}")
-    return POLICIES[name]
+def nothing(chart: Chart) -> Nodes:
+    """Return a single node of no meaning, for the place behind an ocean that has nothing there."""
+    one = np.zeros((1, 1))
+    return Nodes(
+        np.zeros(1), np.inf, np.zeros(1), one, one, np.zeros((1, 1, 1, FIELDS, 1), dtype=np.float32),
+        np.ones((1, 1), dtype=np.int32), one, np.zeros(0), np.zeros((0, 1, 1, 4), dtype=np.float32), np.zeros(0),
+        np.zeros(0), chart, np.array([-np.inf, np.inf]),
+    )  # fmt: skip
 
 
 def _plane(frame: Frame) -> tuple[Chart, Array]:
@@ -151,21 +162,5 @@ def _carry_down(water: NDArray[np.float32], levels: NDArray[np.int32]) -> None:
 
 def _bottom(frame: Frame, levels: NDArray[np.int32]) -> Array:
     deepest = frame.depths[np.maximum(levels - 1, 0)]
-    bottom = deepest if frame.bottom is None else np.where(np.isfinite(frame.bottom), frame.bottom, deepest)
+    bottom = deepest if frame.bottom is None else np.where(frame.bottom > 0.0, frame.bottom, deepest)
     return np.where(levels > 0, bottom, 0.0)
-
-
-def _mean(water: NDArray[np.float32], levels: NDArray[np.int32], plane: Array) -> NDArray[np.float32]:
-    """Mean over times and nodes with water at each level (field, level); its currents are (east, north)."""
-    over_time = water.mean(axis=0, dtype=np.float64)
-    x, y = over_time[:, :, U_X].copy(), over_time[:, :, U_Y].copy()
-    north_x, north_y = plane[2][..., None], plane[3][..., None]
-    over_time[:, :, U_X] = x * north_y - y * north_x
-    over_time[:, :, U_Y] = x * north_x + y * north_y
-    wet = (np.arange(water.shape[-1]) < levels[..., None])[:, :, None, :]
-    count = np.maximum(wet.sum(axis=(0, 1)), 1)
-    mean = (over_time * wet).sum(axis=(0, 1)) / count
-    for k in range(1, mean.shape[1]):
-        if not wet[..., k].any():
-            mean[:, k] = mean[:, k - 1]
-    return np.ascontiguousarray(mean, dtype=np.float32)

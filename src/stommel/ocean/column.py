@@ -4,17 +4,17 @@ Between nodes: linear in time, bilinear in space over the nodes that have water 
 node the node's values come out.
 """
 
-from math import sin
+from math import sqrt
 
 import numpy as np
 
 from stommel.compilation import compiled, inlined
 from stommel.dynamics.state import Water
-from stommel.ocean.cells import find_cell
-from stommel.ocean.chart import project
+from stommel.ocean.cells import CellPoint, find_cell, mapped
+from stommel.ocean.chart import PlanePoint, project
 from stommel.ocean.grid import (
     BOTTOM,
-    CT_ROW,
+    CLIMATOLOGY,
     EAST,
     EAST_ACCELERATION,
     EAST_RATE,
@@ -25,6 +25,7 @@ from stommel.ocean.grid import (
     LAND,
     LATITUDE,
     LONGITUDE,
+    MEAN_SLOT,
     NORTH,
     NORTH_ACCELERATION,
     NORTH_RATE,
@@ -33,26 +34,17 @@ from stommel.ocean.grid import (
     OUTSIDE_TIME,
     QUANTITIES,
     RHO,
-    SALINITY,
     TEMPERATURE,
     TIME,
     Column,
+    Nodes,
     OceanGrid,
     P,
 )
-from stommel.ocean.levels import (
-    add_single_tide,
-    add_tide,
-    cell_levels,
-    mean_levels,
-    single_levels,
-    wet_weights,
-)
-from stommel.seawater.table import DensityTable, density
+from stommel.ocean.levels import add_single_tide, add_tide, cell_levels, single_levels, wet_weights
+from stommel.ocean.weight import gravity, spread
+from stommel.seawater.table import DensityTable
 
-PASCAL_PER_DECIBAR = 1.0e4
-GRAVITY_PER_METRE = 2.26e-7
-"""Relative growth of gravity with depth, as in gsw.grav [1/m]."""
 _SHORE = 0.5 - 1e-9
 """A place is on land where the nodes with water have less than half of the weight."""
 
@@ -89,105 +81,152 @@ def fill_column(
     int
         OK or HELD: the column is filled. OUTSIDE_SPACE, OUTSIDE_TIME or LAND: it is unchanged.
     """
-    status, first, second, share = _time_slot(grid, time)
-    if status > HELD:
-        return status
-    span = grid.times[second] - grid.times[first] if second > first and second < grid.times.size else np.inf
-    if grid.x.size == 1:
-        single_levels(grid, first, second, share, span, column.levels)
-        add_single_tide(grid, time, column.levels)
-        bottom = grid.bottom[0, 0]
-    else:
-        point = project(grid.chart, latitude, longitude)
-        at = find_cell(grid.x, grid.y, point.x, point.y, cell)
+    near = grid.nodes
+    late = _time_outside(near, time)
+    if late > 0.0 and grid.outside_time == ERROR:
+        return OUTSIDE_TIME
+    point = project(near.chart, latitude, longitude)
+    at = _cell_of(near, point, cell)
+    if not at.inside and grid.outside_space == ERROR:
+        return OUTSIDE_SPACE
+    wet, bottom = _ground(near, at)
+    if wet < _SHORE and (at.inside or grid.outside_space != CLIMATOLOGY):
+        return LAND
+    share = _share_behind(grid, point, at, late, wet)
+    if share > 0.0:
+        status, bottom_behind = _fill_behind(grid, table, time, latitude, longitude, column)
+        if status != OK:
+            return status
         if not at.inside:
-            if grid.outside_space == ERROR:
-                return OUTSIDE_SPACE
-            status = HELD
-        if at.inside or grid.outside_space == HOLD:
-            weights, wet, bottom = wet_weights(grid, at)
-            if wet < _SHORE:
-                return LAND
-            cell_levels(grid, at, point, weights, (first, second, share, span), column.levels)
-            add_tide(grid, at, point, weights, time, column.levels)
-        else:
-            mean_levels(grid, column.levels)
-            bottom = grid.mean_bottom
+            bottom += share * (bottom_behind - bottom)
+    if share < 1.0:
+        slot = _time_slot(near, time, late, grid.outside_time, grid.blend_time)
+        _fill_values(near, table, slot, time, latitude, point, at, column.levels, column.values, column.dz)
+    if share > 0.0:
+        _blend(column.values, column.behind, share)
     place = column.place
     place[BOTTOM], place[TIME], place[LATITUDE], place[LONGITUDE] = bottom, time, latitude, longitude
     place[GRAVITY] = gravity(latitude)
-    # arrays, not the grid: as one tuple, all of its arrays would be counted in and out at every depth
-    _spread(grid.depths, grid.profile_depths, grid.profile_rho, table, column)
-    return status
+    return OK if at.inside and late == 0.0 else HELD
 
 
 @inlined
-def gravity(latitude: float) -> float:
-    """Gravity at the sea surface [m/s2], Moritz (2000) as in gsw.grav; latitude in rad."""
-    square = sin(latitude) ** 2
-    return 9.780327 * (1.0 + (5.2792e-3 + 2.32e-5 * square) * square)
+def _cell_of(nodes: Nodes, point: PlanePoint, cell: np.ndarray) -> CellPoint:
+    """Cell of a point; a single node is everywhere."""
+    if nodes.x.size == 1:
+        return CellPoint(0, 0, 0.0, 0.0, True)
+    return find_cell(nodes.x, nodes.y, point.x, point.y, cell)
+
+
+@inlined
+def _ground(nodes: Nodes, at: CellPoint) -> tuple[float, float]:
+    """How much of a cell has water, by weight, and the depth of the bottom there [m]."""
+    if nodes.x.size == 1:
+        return 1.0, nodes.bottom[0, 0]
+    _, wet, bottom = wet_weights(nodes, at)
+    return wet, bottom
+
+
+@inlined
+def _share_behind(grid: OceanGrid, point: PlanePoint, at: CellPoint, late: float, wet: float) -> float:
+    """Share of the ocean behind: 0 in the data, growing with the distance to them in space or in time to 1."""
+    share = 0.0
+    if late > 0.0 and grid.outside_time == CLIMATOLOGY:
+        share = _ramp(late, grid.blend_time)
+    if not at.inside and grid.outside_space == CLIMATOLOGY:
+        x, y = grid.nodes.x, grid.nodes.y
+        east = point.x - mapped(x, at.j, at.i, at.u, at.v)
+        north = point.y - mapped(y, at.j, at.i, at.u, at.v)
+        share = max(share, _ramp(sqrt(east * east + north * north) / point.scale, grid.blend_distance))
+        # where the nearest of the edge is land there is nothing to give way
+        if wet < _SHORE:
+            share = 1.0
+    return share
+
+
+@inlined
+def _ramp(distance: float, over: float) -> float:
+    return min(distance / over, 1.0) if over > 0.0 else 1.0
 
 
 @compiled
-def _time_slot(grid: OceanGrid, time: float) -> tuple[int, int, int, float]:
-    """Status, the two slots around a time, and the share of the second."""
-    last = grid.times.size - 1
-    if not grid.time_range[0] <= time <= grid.time_range[1]:
-        if grid.outside_time == ERROR:
-            return OUTSIDE_TIME, 0, 0, 0.0
-        if grid.outside_time == HOLD:
-            slot = 0 if time < grid.time_range[0] else last
-            return HELD, slot, slot, 0.0
-        return HELD, last + 1, last + 1, 0.0
-    if time <= grid.times[0]:
-        return OK, 0, 0, 0.0
-    if time >= grid.times[last]:
-        return OK, last, last, 0.0
-    first = min(int(np.searchsorted(grid.times, time, side="right")) - 1, last - 1)
-    share = (time - grid.times[first]) / (grid.times[first + 1] - grid.times[first])
-    return OK, first, first + 1, share
+def _fill_behind(
+    grid: OceanGrid, table: DensityTable, time: float, latitude: float, longitude: float, column: Column
+) -> tuple[int, float]:
+    """Fill the column's second room from the ocean behind; its status and the depth of its bottom [m]."""
+    behind = grid.behind
+    late = _time_outside(behind, time)
+    if late > 0.0 and grid.behind_outside_time == ERROR:
+        return OUTSIDE_TIME, 0.0
+    point = project(behind.chart, latitude, longitude)
+    at = _cell_of(behind, point, column.behind_cell)
+    if not at.inside:
+        return OUTSIDE_SPACE, 0.0
+    wet, bottom = _ground(behind, at)
+    if wet < _SHORE:
+        return LAND, 0.0
+    slot = _time_slot(behind, time, late, HOLD, 0.0)
+    _fill_values(behind, table, slot, time, latitude, point, at, column.levels, column.behind, column.dz)
+    return OK, bottom
 
 
 @compiled
-def _spread(
-    depths: np.ndarray,
-    profile_depths: np.ndarray,
-    profile_rho: np.ndarray,
+def _fill_values(
+    nodes: Nodes,
     table: DensityTable,
-    column: Column,
+    slot: tuple[int, int, float, float],
+    time: float,
+    latitude: float,
+    point: PlanePoint,
+    at: CellPoint,
+    levels: np.ndarray,
+    values: np.ndarray,
+    dz: float,
 ) -> None:
-    """Interpolate the levels to the column's depths and integrate density to pressure from the surface down."""
-    values, levels, dz, g = column.values, column.levels, column.dz, column.place[GRAVITY]
-    last, k = depths.size - 1, 0
-    above, pressure = 0.0, 0.0
-    for n in range(values.shape[0]):
-        z = n * dz
-        while k < last - 1 and depths[k + 1] < z:
-            k += 1
-        lower = min(k + 1, last)
-        share = min(max((z - depths[k]) / (depths[lower] - depths[k]), 0.0), 1.0) if last > 0 else 0.0
-        for q in range(TEMPERATURE, QUANTITIES):
-            values[n, q] = levels[k, q] + share * (levels[lower, q] - levels[k, q])
-        weight = g * (1.0 + GRAVITY_PER_METRE * (z - 0.5 * dz)) * dz if n > 0 else 0.0
-        # with the density above, the pressure is some Pa off, which moves the density by about 1e-6 kg/m3
-        pressure += weight * above
-        if profile_depths.size > 0:
-            rho = _profile_density(profile_depths, profile_rho, z)
-        else:
-            rho = density(table, values[n, SALINITY], values[n, CT_ROW], pressure / PASCAL_PER_DECIBAR)
-        pressure += 0.5 * weight * (rho - above)
-        above = rho
-        values[n, P], values[n, RHO] = pressure, rho
+    """Interpolate to the nodes' own levels, and from them to the depths of a column."""
+    if nodes.x.size == 1:
+        single_levels(nodes, slot, levels)
+        add_single_tide(nodes, time, levels)
+    else:
+        weights, _, _ = wet_weights(nodes, at)
+        cell_levels(nodes, at, point, weights, slot, levels)
+        add_tide(nodes, at, point, weights, time, levels)
+    # arrays, not the nodes: as one tuple, all of its arrays would be counted in and out at every depth
+    spread(nodes.depths, nodes.profile_depths, nodes.profile_rho, table, levels, values, dz, gravity(latitude))
 
 
 @inlined
-def _profile_density(depths: np.ndarray, rho: np.ndarray, z: float) -> float:
-    """Density that is given directly, held at the ends of its depths."""
-    k = min(max(int(np.searchsorted(depths, z)), 1), depths.size - 1)
-    first = max(k - 1, 0)
-    share = min(max((z - depths[first]) / (depths[k] - depths[first]), 0.0), 1.0) if k > first else 0.0
-    at: float = rho[first] + share * (rho[k] - rho[first])
-    return at
+def _blend(values: np.ndarray, behind: np.ndarray, share: float) -> None:
+    for n in range(values.shape[0]):
+        for q in range(QUANTITIES):
+            values[n, q] = behind[n, q] if share == 1.0 else values[n, q] + share * (behind[n, q] - values[n, q])
+
+
+@inlined
+def _time_outside(nodes: Nodes, time: float) -> float:
+    """How long a time lies before or after the data [s]; 0 within."""
+    late: float = max(nodes.time_range[0] - time, time - nodes.time_range[1], 0.0)
+    return late
+
+
+@inlined
+def _time_slot(nodes: Nodes, time: float, late: float, policy: int, blend_time: float) -> tuple[int, int, float, float]:
+    """Return the two slots around a time, the share of the second, and the time between them [s]."""
+    times = nodes.times
+    last = times.size - 1
+    if late > 0.0:
+        slot = 0 if time < nodes.time_range[0] else last
+        if policy == MEAN_SLOT:
+            return slot, last + 1, _ramp(late, blend_time), np.inf
+        return slot, slot, 0.0, np.inf
+    at = times[0] + (time - times[0]) % nodes.period if nodes.period < np.inf else time
+    if at <= times[0]:
+        return 0, 0, 0.0, np.inf
+    if at >= times[last]:
+        return last, last, 0.0, np.inf
+    first = min(int(np.searchsorted(times, at, side="right")) - 1, last - 1)
+    span = times[first + 1] - times[first]
+    return first, first + 1, (at - times[first]) / span, span
 
 
 @inlined

@@ -137,7 +137,7 @@ class EastChinaSea(Parameters):
             np.zeros(1), (-np.inf, np.inf), _LEVELS, latitude, longitude,
             np.broadcast_to(bottom, latitude.shape).copy(), np.array([2.0 * np.pi / (3600.0 * M2_PERIOD_H)]), tide,
         )  # fmt: skip
-        return ocean_grid(frame, [slot], "error", "error")
+        return ocean_grid(frame, [slot])
 
     def tide(self, bottom: Array) -> Array:
         """East cos, east sin, north cos, north sin where the bottom is so deep (nodes, 4) [m/s]."""

@@ -1,15 +1,18 @@
 """Analytic oceans that are the same at every place: a grid of one node, exact but for the depth levels' spacing."""
 
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from stommel.ocean.build import Frame, Slot, ocean_grid
+from stommel.ocean.errors import UnknownOceanError
 from stommel.ocean.grid import UNBOUNDED_DEPTH, OceanGrid
 from stommel.seawater import properties
 from stommel.seawater.stratification import Stratification, south_china_sea, two_layer
+from stommel.vehicle.messages import sentence
 
 M2_PERIOD_H = 12.4206012
 """Period of the principal lunar tide, 360 degrees by 28.9841042 degrees an hour."""
@@ -47,6 +50,26 @@ class Parameters(BaseModel):
         return self.bottom_m if self.bottom_m is not None else _DEEPEST_LEVEL
 
 
+def made(kind: type[Any], label: str, values: Mapping[str, Any]) -> Any:
+    """Make an ocean of a kind from its parameters.
+
+    Raises
+    ------
+    UnknownOceanError
+        A parameter is unknown, or a value is not allowed; `label` begins the sentence.
+    """
+    try:
+        return kind(**values)
+    except ValidationError as error:
+        # unknown keys first: they often explain the missing ones
+        detail = min(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
+        if detail["type"] == "extra_forbidden":
+            known = ", ".join(kind.model_fields)
+            text = f"{label}: unknown parameter {detail['loc'][0]}; parameters: {known}"
+            raise UnknownOceanError(text) from None
+        raise UnknownOceanError(f"{label}: {sentence(detail, kind)}") from None
+
+
 class _Everywhere(Parameters):
     def _layers(self) -> Stratification:
         raise NotImplementedError
@@ -62,17 +85,27 @@ class _Everywhere(Parameters):
     def grid(self) -> OceanGrid:
         """Grid of one node."""
         layers = self._layers()
-        east, north = self._current(layers.depths)
-        p = properties.pressure_from_depth(layers.depths, self.latitude_deg)
-        fields = (properties.in_situ_temperature(layers.CT, layers.S_A, p), layers.S_A, layers.CT, east, north)
-        bottom = self.bottom_m if self.bottom_m is not None else UNBOUNDED_DEPTH
-        omega, tide = self._tide()
-        place = np.radians([[self.latitude_deg]]), np.radians([[self.longitude_deg]])
-        frame = Frame(
-            np.zeros(1), (-np.inf, np.inf), layers.depths, *place, np.full((1, 1), bottom), omega,
-            tide[:, None, None, :], layers.rho_depths, layers.rho,
-        )  # fmt: skip
-        return ocean_grid(frame, [Slot(*(f[:, None, None] for f in fields))], "error", "error")
+        return single_node(layers, self, self._current(layers.depths), self._tide())
+
+
+def single_node(
+    layers: Stratification, place: Parameters, current: tuple[Array, Array], tide: tuple[Array, Array]
+) -> OceanGrid:
+    """Grid of one node: the same layers, current to east and north [m/s] and tides everywhere, always.
+
+    `place` has the latitude and longitude for pressure, and the bottom; `tide` the angular speeds [rad/s], and east
+    cos, east sin, north cos, north sin of each [m/s].
+    """
+    p = properties.pressure_from_depth(layers.depths, place.latitude_deg)
+    fields = (properties.in_situ_temperature(layers.CT, layers.S_A, p), layers.S_A, layers.CT, *current)
+    bottom = place.bottom_m if place.bottom_m is not None else UNBOUNDED_DEPTH
+    omega, ellipses = tide
+    node = np.radians([[place.latitude_deg]]), np.radians([[place.longitude_deg]])
+    frame = Frame(
+        np.zeros(1), (-np.inf, np.inf), layers.depths, *node, np.full((1, 1), bottom), omega,
+        ellipses[:, None, None, :], layers.rho_depths, layers.rho,
+    )  # fmt: skip
+    return ocean_grid(frame, [Slot(*(f[:, None, None] for f in fields))])
 
 
 class _OneWater(_Everywhere):

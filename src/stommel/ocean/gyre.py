@@ -41,6 +41,4 @@ class Gyre(Still):
             np.zeros(1), (-np.inf, np.inf), layers.depths, latitude, longitude, np.full(latitude.shape, bottom),
             profile_depths=layers.rho_depths, profile_rho=layers.rho,
         )  # fmt: skip
-        return ocean_grid(
-            frame, [Slot(T, S_A, CT, -speed * np.cos(outward) * full, speed * np.sin(outward) * full)], "error", "error"
-        )
+        return ocean_grid(frame, [Slot(T, S_A, CT, -speed * np.cos(outward) * full, speed * np.sin(outward) * full)])

@@ -22,7 +22,7 @@ from stommel.ocean.grid import (
     TEMPERATURE,
     U_X,
     U_Y,
-    OceanGrid,
+    Nodes,
     T,
 )
 
@@ -31,22 +31,22 @@ _TOO_LITTLE = 1e-3
 
 
 @inlined
-def wet_weights(grid: OceanGrid, at: CellPoint) -> tuple[tuple[float, float, float, float], float, float]:
+def wet_weights(nodes: Nodes, at: CellPoint) -> tuple[tuple[float, float, float, float], float, float]:
     """Bilinear weights of the four nodes, how much of them has water, and the bottom over those."""
     j, i, u, v = at.j, at.i, at.u, at.v
     weights = ((1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v)
     wet, bottom = 0.0, 0.0
     for corner in range(4):
         row, column = j + corner // 2, i + corner % 2
-        if grid.levels[row, column] > 0:
+        if nodes.levels[row, column] > 0:
             wet += weights[corner]
-            bottom += weights[corner] * grid.bottom[row, column]
+            bottom += weights[corner] * nodes.bottom[row, column]
     return weights, wet, bottom / wet if wet > 0.0 else 0.0
 
 
 @compiled
 def cell_levels(
-    grid: OceanGrid,
+    nodes: Nodes,
     at: CellPoint,
     point: PlanePoint,
     weights: tuple[float, float, float, float],
@@ -55,10 +55,10 @@ def cell_levels(
 ) -> None:
     """Interpolate within a cell at every level of the grid, and turn the vectors to north and east."""
     first, second, share, span = slot
-    water = grid.water
+    water = nodes.water
     j, i = at.j, at.i
-    wet = (grid.levels[j, i], grid.levels[j, i + 1], grid.levels[j + 1, i], grid.levels[j + 1, i + 1])
-    for k in range(grid.depths.size):
+    wet = (nodes.levels[j, i], nodes.levels[j, i + 1], nodes.levels[j + 1, i], nodes.levels[j + 1, i + 1])
+    for k in range(nodes.depths.size):
         total = 0.0
         for q in range(QUANTITIES):
             out[k, q] = 0.0
@@ -81,7 +81,7 @@ def cell_levels(
         elif k > 0:
             for q in range(TEMPERATURE, NORTH_ACCELERATION):
                 out[k, q] = out[k - 1, q]
-    _accelerate(grid, at, point, slot, min(wet[0], wet[1], wet[2], wet[3]), out)
+    _accelerate(nodes, at, point, slot, min(wet[0], wet[1], wet[2], wet[3]), out)
     _turn(point, out, NORTH)
     _turn(point, out, NORTH_RATE)
     _turn(point, out, NORTH_ACCELERATION)
@@ -89,21 +89,21 @@ def cell_levels(
 
 @compiled
 def _accelerate(
-    grid: OceanGrid, at: CellPoint, point: PlanePoint, slot: tuple[int, int, float, float], wet: int, out: np.ndarray
+    nodes: Nodes, at: CellPoint, point: PlanePoint, slot: tuple[int, int, float, float], wet: int, out: np.ndarray
 ) -> None:
     """Acceleration of the water, dU/dt + (U . grad) U, along x and y; at levels that lack a node only dU/dt."""
     first, second, share, _ = slot
     j, i, u, v = at.j, at.i, at.u, at.v
-    x_u, x_v, y_u, y_v = jacobian(grid.x, grid.y, j, i, u, v)
+    x_u, x_v, y_u, y_v = jacobian(nodes.x, nodes.y, j, i, u, v)
     determinant = x_u * y_v - x_v * y_u
-    for k in range(grid.depths.size):
+    for k in range(nodes.depths.size):
         for axis in range(2):
             rate = out[k, NORTH_RATE + axis]
             if k < wet:
-                c00 = _blend(grid, first, second, share, j, i, U_X + axis, k)
-                c01 = _blend(grid, first, second, share, j, i + 1, U_X + axis, k)
-                c10 = _blend(grid, first, second, share, j + 1, i, U_X + axis, k)
-                c11 = _blend(grid, first, second, share, j + 1, i + 1, U_X + axis, k)
+                c00 = _blend(nodes, first, second, share, j, i, U_X + axis, k)
+                c01 = _blend(nodes, first, second, share, j, i + 1, U_X + axis, k)
+                c10 = _blend(nodes, first, second, share, j + 1, i, U_X + axis, k)
+                c11 = _blend(nodes, first, second, share, j + 1, i + 1, U_X + axis, k)
                 a_u = (1.0 - v) * (c01 - c00) + v * (c11 - c10)
                 a_v = (1.0 - u) * (c10 - c00) + u * (c11 - c01)
                 a_x = (a_u * y_v - a_v * y_u) / determinant
@@ -113,8 +113,8 @@ def _accelerate(
 
 
 @inlined
-def _blend(grid: OceanGrid, first: int, second: int, share: float, j: int, i: int, field: int, k: int) -> float:
-    a, b = grid.water[first, j, i, field, k], grid.water[second, j, i, field, k]
+def _blend(nodes: Nodes, first: int, second: int, share: float, j: int, i: int, field: int, k: int) -> float:
+    a, b = nodes.water[first, j, i, field, k], nodes.water[second, j, i, field, k]
     blend: float = a + share * (b - a)
     return blend
 
@@ -129,31 +129,19 @@ def _turn(point: PlanePoint, out: np.ndarray, row: int) -> None:
 
 
 @compiled
-def single_levels(grid: OceanGrid, first: int, second: int, share: float, span: float, out: np.ndarray) -> None:
+def single_levels(nodes: Nodes, slot: tuple[int, int, float, float], out: np.ndarray) -> None:
     """Levels of an ocean that is the same everywhere; its vectors are (east, north)."""
-    for k in range(grid.depths.size):
-        out[k, TEMPERATURE] = _blend(grid, first, second, share, 0, 0, T, k)
-        out[k, SALINITY] = _blend(grid, first, second, share, 0, 0, S_A, k)
-        out[k, CT_ROW] = _blend(grid, first, second, share, 0, 0, CT, k)
-        out[k, EAST] = _blend(grid, first, second, share, 0, 0, U_X, k)
-        out[k, NORTH] = _blend(grid, first, second, share, 0, 0, U_Y, k)
-        out[k, EAST_RATE] = (grid.water[second, 0, 0, U_X, k] - grid.water[first, 0, 0, U_X, k]) / span
-        out[k, NORTH_RATE] = (grid.water[second, 0, 0, U_Y, k] - grid.water[first, 0, 0, U_Y, k]) / span
+    first, second, share, span = slot
+    for k in range(nodes.depths.size):
+        out[k, TEMPERATURE] = _blend(nodes, first, second, share, 0, 0, T, k)
+        out[k, SALINITY] = _blend(nodes, first, second, share, 0, 0, S_A, k)
+        out[k, CT_ROW] = _blend(nodes, first, second, share, 0, 0, CT, k)
+        out[k, EAST] = _blend(nodes, first, second, share, 0, 0, U_X, k)
+        out[k, NORTH] = _blend(nodes, first, second, share, 0, 0, U_Y, k)
+        out[k, EAST_RATE] = (nodes.water[second, 0, 0, U_X, k] - nodes.water[first, 0, 0, U_X, k]) / span
+        out[k, NORTH_RATE] = (nodes.water[second, 0, 0, U_Y, k] - nodes.water[first, 0, 0, U_Y, k]) / span
         out[k, NORTH_ACCELERATION] = out[k, NORTH_RATE]
         out[k, EAST_ACCELERATION] = out[k, EAST_RATE]
-
-
-@compiled
-def mean_levels(grid: OceanGrid, out: np.ndarray) -> None:
-    """Levels of the mean over all of the data, for places outside."""
-    for k in range(grid.depths.size):
-        out[k, TEMPERATURE] = grid.mean_water[T, k]
-        out[k, SALINITY] = grid.mean_water[S_A, k]
-        out[k, CT_ROW] = grid.mean_water[CT, k]
-        out[k, EAST] = grid.mean_water[U_X, k]
-        out[k, NORTH] = grid.mean_water[U_Y, k]
-        for q in range(NORTH_RATE, QUANTITIES):
-            out[k, q] = 0.0
 
 
 @inlined
@@ -168,12 +156,12 @@ def _add_current(out: np.ndarray, north: float, east: float, north_rate: float, 
 
 
 @compiled
-def add_single_tide(grid: OceanGrid, time: float, out: np.ndarray) -> None:
+def add_single_tide(nodes: Nodes, time: float, out: np.ndarray) -> None:
     """Add the tides of an ocean that is the same everywhere."""
-    for n in range(grid.tide_speed.size):
-        omega = grid.tide_speed[n]
+    for n in range(nodes.tide_speed.size):
+        omega = nodes.tide_speed[n]
         c, s = cos(omega * time), sin(omega * time)
-        a = grid.tide[n, 0, 0]
+        a = nodes.tide[n, 0, 0]
         _add_current(
             out,
             a[2] * c + a[3] * s,
@@ -185,7 +173,7 @@ def add_single_tide(grid: OceanGrid, time: float, out: np.ndarray) -> None:
 
 @compiled
 def add_tide(
-    grid: OceanGrid,
+    nodes: Nodes,
     at: CellPoint,
     point: PlanePoint,
     weights: tuple[float, float, float, float],
@@ -193,15 +181,15 @@ def add_tide(
     out: np.ndarray,
 ) -> None:
     """Add the tides of the cell; nodes on land have none, and no share of the weight."""
-    for n in range(grid.tide_speed.size):
-        omega = grid.tide_speed[n]
+    for n in range(nodes.tide_speed.size):
+        omega = nodes.tide_speed[n]
         c, s = cos(omega * time), sin(omega * time)
         total, x, y, x_rate, y_rate = 0.0, 0.0, 0.0, 0.0, 0.0
         for corner in range(4):
             row, column = at.j + corner // 2, at.i + corner % 2
-            if grid.levels[row, column] > 0:
+            if nodes.levels[row, column] > 0:
                 w = weights[corner]
-                a = grid.tide[n, row, column]
+                a = nodes.tide[n, row, column]
                 total += w
                 x += w * (a[0] * c + a[1] * s)
                 y += w * (a[2] * c + a[3] * s)

@@ -1,26 +1,39 @@
-"""An ocean from a CF NetCDF file."""
+"""An ocean from CF NetCDF files."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
-from stommel.errors import FileError, Problem
-from stommel.ocean.axes import depth_dimension, read_depths, read_times, time_dimension
+from stommel.ocean.answers import Region
+from stommel.ocean.axes import time_dimension
 from stommel.ocean.build import Frame, Slot, ocean_grid
 from stommel.ocean.errors import UnknownOceanError
 from stommel.ocean.grid import FIELDS, OceanGrid
-from stommel.ocean.horizontal import Nodes, read_nodes
+from stommel.ocean.horizontal import read_nodes
+from stommel.ocean.region import inside
+from stommel.ocean.series import (
+    Layout,
+    Layouts,
+    Series,
+    check_same_places,
+    check_same_times,
+    layout_of,
+    read_box,
+    same_nodes,
+    series_of,
+)
+from stommel.ocean.sources import opened
 from stommel.ocean.times import Time, seconds
 from stommel.ocean.variables import OWN_NAMES, File
 from stommel.seawater import properties
 
 Array = NDArray[np.float64]
-Bounds = tuple[float, float, float, float]
 
+YEAR = 365.2425 * 86400.0
+"""Mean year of the calendar, after which a climatology repeats [s]."""
 _MOST_BYTES = 4e9
 """A grid larger than this is refused: it must be cut to the mission's region."""
 _DEEPEST_FIRST_LEVEL = 20.0
@@ -28,185 +41,184 @@ _DEEPEST_FIRST_LEVEL = 20.0
 
 
 @dataclass(frozen=True)
-class _Fields:
-    """Names of the variables, and whether the currents are east and north."""
+class Reading:
+    """What of the files is read, and how; `Ocean.open` describes the arguments."""
 
-    temperature: str
-    salinity: str
-    u: str
-    v: str
-    geographic: bool
+    names: dict[str, str]
+    bounds: Region | None = None
+    between: tuple[Time, Time] | None = None
+    yearly: bool | None = None
+    at_rest: bool = False
+    mean_slot: bool = False
 
 
 @dataclass(frozen=True)
-class _Part:
-    """What of the file is read."""
+class _Fields:
+    """The quantities over time, and whether the currents are east and north; none where the water is at rest."""
 
-    time: str | None
-    slots: NDArray[np.intp]
-    depth: str
-    levels: NDArray[np.intp]
-    nodes: Nodes
-    j: NDArray[np.intp]
-    i: NDArray[np.intp]
+    temperature: Series
+    salinity: Series
+    u: Series | None
+    v: Series | None
+    geographic: bool
+
+    @property
+    def all(self) -> list[Series]:
+        return [series for series in (self.temperature, self.salinity, self.u, self.v) if series is not None]
 
 
-def read_ocean(
-    path: Path,
-    names: dict[str, str],
-    policies: tuple[str, str],
-    bounds: Bounds | None,
-    between: tuple[Time, Time] | None,
-) -> tuple[OceanGrid, dict[str, str]]:
-    """Read the grid of a file and notes on what was found where; `Ocean.open` describes the arguments."""
-    unknown = sorted(set(names) - set(OWN_NAMES))
+def read_ocean(paths: Sequence[Path], reading: Reading) -> tuple[OceanGrid, dict[str, str]]:
+    """Read the grid of files and notes on what was found where."""
+    unknown = sorted(set(reading.names) - set(OWN_NAMES))
     if unknown:
         raise UnknownOceanError(f"names: unknown key {unknown[0]}; known: {', '.join(OWN_NAMES)}")
+    with opened(paths, reading.names) as files:
+        return _read(files, reading)
+
+
+def _read(files: Sequence[File], reading: Reading) -> tuple[OceanGrid, dict[str, str]]:
+    _check_dimensions(files, reading.names)
+    fields = _fields(files, at_rest=reading.at_rest)
+    first, nodes = fields.temperature, fields.temperature.first.nodes
+    yearly = first.of_every_year if reading.yearly is None else reading.yearly
+    slots = np.arange(len(first.times)) if yearly else _slots(first, reading.between)
+    j, i = inside(first.first.file, nodes, reading.bounds)
+    _check_size(first.first, len(slots), len(j), len(i))
+    box = np.ix_(j, i)
+    here = replace(nodes, latitude=nodes.latitude[box], longitude=nodes.longitude[box])
+    bottom, bottom_name = _bottom(files, first.first, (j, i))
+    frame = Frame(
+        first.times[slots], _span(first, slots, yearly=yearly), first.first.depths, here.latitude, here.longitude,
+        bottom, period=YEAR if yearly else np.inf,
+    )  # fmt: skip
     try:
-        data = xr.open_dataset(path, engine="netcdf4", decode_cf=False)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error).splitlines()[0]
-        raise FileError([Problem(str(path), "", f"cannot be read as NetCDF: {reason}")]) from error
-    with data:
-        return _read(File(str(path), data, names), policies, bounds, between)
+        grid = ocean_grid(frame, _slices(fields, slots, (j, i), frame), mean_slot=reading.mean_slot)
+    except UnknownOceanError as error:
+        first.first.file.refuse(first.first.variable, str(error))
+    return grid, _notes(fields, frame, bottom_name, len(files))
 
 
-def _read(
-    file: File, policies: tuple[str, str], bounds: Bounds | None, between: tuple[Time, Time] | None
-) -> tuple[OceanGrid, dict[str, str]]:
-    fields = _fields(file)
-    time, depth = time_dimension(file, fields.temperature), depth_dimension(file, fields.temperature)
-    times, time_range = read_times(file, time) if time else (np.zeros(1), (-np.inf, np.inf))
-    depths, order = read_depths(file, depth)
-    nodes = read_nodes(file, fields.temperature, tuple(d for d in (time, depth) if d))
-    slots = _slots(file, times, time_range, between)
-    part = _Part(time, slots, depth, order, nodes, *_inside(file, nodes, bounds))
-    if between is not None and time:
-        time_range = (
-            time_range[0] if slots[0] == 0 else float(times[slots[0]]),
-            time_range[1] if slots[-1] == len(times) - 1 else float(times[slots[-1]]),
-        )
-    size = 4.0 * FIELDS * len(slots) * len(depths) * len(part.j) * len(part.i)
-    if size > _MOST_BYTES:
-        file.refuse(
-            fields.temperature,
-            f"the ocean needs {size / 1e9:.1f} GB of memory; cut it with bounds (south, north, west, east) or between",
-        )
-    box = np.ix_(part.j, part.i)
-    frame = Frame(times[slots], time_range, depths, nodes.latitude[box], nodes.longitude[box], _bottom(file, part))
-    nodes = replace(nodes, angle=nodes.angle[box])
-    grid = ocean_grid(frame, _slices(file, fields, part, nodes.angle, frame), *policies)
-    return grid, _notes(file, fields, frame, nodes)
+def _check_dimensions(files: Sequence[File], names: dict[str, str]) -> None:
+    """Refuse a time or depth that no variable has as a dimension."""
+    for what in ("time", "depth"):
+        if what in names and not any(names[what] in file.data.dims for file in files):
+            there = ", ".join(map(str, files[0].data.dims)) or "none"
+            files[0].refuse(what, f"names: {what} = {names[what]!r}: no such dimension; there are: {there}")
 
 
-def _fields(file: File) -> _Fields:
-    temperature, salinity = str(file.find("temperature")), str(file.find("salinity"))
-    east, north = file.find("current_east", needed=False), file.find("current_north", needed=False)
-    geographic = east is not None and north is not None
-    u, v = (east, north) if geographic else (file.find("current_x"), file.find("current_y"))
-    found = _Fields(temperature, salinity, str(u), str(v), geographic)
-    dims = file.data[temperature].dims
-    for name in (salinity, found.u, found.v):
-        if set(file.data[name].dims) != set(dims):
-            file.refuse(
-                name,
-                f"{name} has the dimensions {', '.join(map(str, file.data[name].dims))}, {temperature} has "
-                f"{', '.join(map(str, dims))}; all must lie on the same nodes (interpolate a staggered grid first)",
-            )
-    return found
+def _fields(files: Sequence[File], *, at_rest: bool) -> _Fields:
+    """Find the quantities in the files, and check that all lie at the same times, levels and nodes."""
+    known: Layouts = {}
+    temperature, salinity = (_series(files, what, known) for what in ("temperature", "salinity"))
+    east, north = _holders(files, "current_east"), _holders(files, "current_north")
+    geographic = bool(east and north)
+    currents = ("current_east", "current_north") if geographic else ("current_x", "current_y")
+    u, v = (None, None) if at_rest else (_series(files, what, known, turned=not geographic) for what in currents)
+    fields = _Fields(temperature, salinity, u, v, geographic)
+    for series in fields.all:
+        for layout in {id(layout): layout for layout, _ in series.places}.values():
+            check_same_places(temperature.first, layout)
+        check_same_times(temperature, series)
+    return fields
 
 
-def _slots(
-    file: File, times: Array, time_range: tuple[float, float], between: tuple[Time, Time] | None
-) -> NDArray[np.intp]:
+def _holders(files: Sequence[File], what: str) -> list[File]:
+    return [file for file in files if file.find(what, needed=False) is not None]
+
+
+def _series(files: Sequence[File], what: str, known: Layouts, *, turned: bool = False) -> Series:
+    holders = _holders(files, what)
+    if not holders:
+        files[0].find(what)  # says what is missing
+    return series_of(what, [layout_of(file, str(file.find(what)), known, turned=turned) for file in holders])
+
+
+def _slots(series: Series, between: tuple[Time, Time] | None) -> NDArray[np.intp]:
     """Indices of the times that a mission between two times needs."""
-    if between is None:
+    times = series.times
+    if between is None or series.first.time is None:
         return np.arange(len(times))
     first, last = seconds(between[0]), seconds(between[1])
     if last < first:
         raise UnknownOceanError("between: the last time must not be before the first")
-    if last < time_range[0] or first > time_range[1]:
-        file.refuse("time", "has no times in the wanted interval")
-    start = max(int(np.searchsorted(times, first, side="right")) - 1, 0)
-    return np.arange(start, min(int(np.searchsorted(times, last, side="left")) + 1, len(times)))
+    if last < series.spoken_for[0] or first > series.spoken_for[1]:
+        series.first.file.refuse("time", "has no times in the wanted interval")
+    start = min(max(int(np.searchsorted(times, first, side="right")) - 1, 0), len(times) - 1)
+    return np.arange(start, max(min(int(np.searchsorted(times, last, side="left")) + 1, len(times)), start + 1))
 
 
-def _inside(file: File, nodes: Nodes, bounds: Bounds | None) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Rows and columns of the nodes within the bounds, and one more on each side; columns in order from the west."""
-    rows, columns = nodes.latitude.shape
-    if bounds is None:
-        return np.arange(rows), np.arange(columns)
-    south, north, west, east = bounds
-    width = (east - west) % 360.0 if (east - west) % 360.0 else 360.0
-    if not -90.0 <= south < north <= 90.0:
-        raise UnknownOceanError(f"bounds: south {south:g}, north {north:g} deg: must increase within -90 to 90")
-    beside = np.radians((np.degrees(nodes.longitude) - west + 180.0 - 0.5 * width) % 360.0 - 180.0 + 0.5 * width)
-    within = (nodes.latitude >= np.radians(south)) & (nodes.latitude <= np.radians(north))
-    within &= (beside >= 0.0) & (beside <= np.radians(width))
-    if not within.any():
-        file.refuse("bounds", f"has no node within latitude {south:g} to {north:g}, longitude {west:g} to {east:g}")
-    j = _span(np.flatnonzero(within.any(axis=1)), rows)
-    separable = bool(np.all(np.ptp(nodes.longitude, axis=0) == 0.0))
-    if not separable:
-        return j, _span(np.flatnonzero(within.any(axis=0)), columns)
-    # meridians: the region may lie across the file's first and last column
-    order = np.argsort(beside[0], kind="stable")
-    return j, order[_span(np.flatnonzero(within.any(axis=0)[order]), columns)]
+def _span(series: Series, slots: NDArray[np.intp], *, yearly: bool) -> tuple[float, float]:
+    """First and last time that the chosen slots speak for [s]."""
+    times = series.times
+    if yearly:
+        if times[-1] - times[0] >= YEAR:
+            series.first.file.refuse("time", "spans more than a year; a climatology must lie within one")
+        return -np.inf, np.inf
+    return (
+        series.spoken_for[0] if slots[0] == 0 else float(times[slots[0]]),
+        series.spoken_for[1] if slots[-1] == len(times) - 1 else float(times[slots[-1]]),
+    )
 
 
-def _span(found: NDArray[np.intp], count: int) -> NDArray[np.intp]:
-    return np.arange(max(int(found[0]) - 1, 0), min(int(found[-1]) + 2, count))
+def _check_size(layout: Layout, slots: int, rows: int, columns: int) -> None:
+    size = 4.0 * FIELDS * slots * len(layout.depths) * rows * columns
+    if size > _MOST_BYTES:
+        layout.file.refuse(
+            layout.variable,
+            f"the ocean needs {size / 1e9:.1f} GB of memory; cut it with bounds (south, north, west, east) or between",
+        )
 
 
-def _bottom(file: File, part: _Part) -> Array | None:
-    name = file.find("bottom", needed=False)
-    if name is None:
-        return None
-    array = file.data[name]
-    if part.time is not None and part.time in array.dims:
-        array = array.isel({part.time: 0})
-    if set(array.dims) != {part.nodes.rows, part.nodes.columns}:
-        file.refuse(name, f"{name} has the dimensions {', '.join(map(str, array.dims))}; must lie on the nodes")
-    array = array.transpose(part.nodes.rows, part.nodes.columns)
-    array = array.isel({part.nodes.rows: part.j, part.nodes.columns: part.i})
-    bottom = file.numbers(name, "length", array)
-    return -bottom if np.nanmax(bottom) <= 0.0 else bottom
+def _bottom(
+    files: Sequence[File], first: Layout, box: tuple[NDArray[np.intp], NDArray[np.intp]]
+) -> tuple[Array | None, str]:
+    """Depth of the bottom at the chosen nodes [m], if a file has it, and the variable's name."""
+    for file in _holders(files, "bottom"):
+        name = str(file.find("bottom"))
+        nodes = read_nodes(file, name, (), turned=False) if file is not first.file else first.nodes
+        dims = {str(d) for d in file.data[name].dims if file.data.sizes[d] > 1 or d in (nodes.rows, nodes.columns)}
+        wanted = {nodes.rows, nodes.columns} - {""}
+        if dims - {time_dimension(file, name)} != wanted or not same_nodes(first.nodes, nodes):
+            there = ", ".join(map(str, file.data[name].dims)) or "none"
+            file.refuse(name, f"{name} has the dimensions {there}; must lie on the nodes of {first.label}")
+        bottom = read_box(file, name, "length", file.data[name], (nodes.rows, nodes.columns), box)
+        if not np.isfinite(bottom).any():
+            file.refuse(name, f"{name} has no number at any of the nodes")
+        return (-bottom if np.nanmax(bottom) <= 0.0 else bottom), name
+    return None, ""
 
 
-def _slices(file: File, fields: _Fields, part: _Part, angle: Array, frame: Frame) -> Iterator[Slot]:
+def _slices(
+    fields: _Fields, slots: NDArray[np.intp], box: tuple[NDArray[np.intp], NDArray[np.intp]], frame: Frame
+) -> Iterator[Slot]:
     """Read one time after the other, and convert to Absolute Salinity and Conservative Temperature."""
     latitude, longitude = np.degrees(frame.latitude), np.degrees(frame.longitude)
     p = properties.pressure_from_depth(frame.depths[:, None, None], latitude)
-    for slot in part.slots:
-        raw = {
-            name: file.numbers(name, quantity, _slice(file.data[name], part, int(slot)))
-            for name, quantity in (
-                (fields.temperature, "temperature"),
-                (fields.salinity, "salinity"),
-                (fields.u, "velocity"),
-                (fields.v, "velocity"),
-            )
-        }
-        S_A = raw[fields.salinity]
-        if file.standard_name(fields.salinity) != "sea_water_absolute_salinity":
+    for n in map(int, slots):
+        S_A = fields.salinity.read(n, "salinity", *box)
+        if _standard_name(fields.salinity, n) != "sea_water_absolute_salinity":
             S_A = properties.absolute_salinity(S_A, p, longitude, latitude)
-        T, CT = _temperatures(file.standard_name(fields.temperature), raw[fields.temperature], S_A, p)
-        east, north = raw[fields.u], raw[fields.v]
+        given = fields.temperature.read(n, "temperature", *box)
+        T, CT = _temperatures(_standard_name(fields.temperature, n), given, S_A, p)
+        if fields.u is None or fields.v is None:
+            still = np.zeros_like(T)
+            yield Slot(T, S_A, CT, still, still)
+            continue
+        east, north = fields.u.read(n, "velocity", *box), fields.v.read(n, "velocity", *box)
         if not fields.geographic:
+            angle = fields.u.places[n][0].nodes.angle[np.ix_(*box)]
             east, north = to_east_and_north(east, north, angle)
         yield Slot(T, S_A, CT, east, north)
+
+
+def _standard_name(series: Series, n: int) -> str:
+    layout = series.places[n][0]
+    return layout.file.standard_name(layout.variable)
 
 
 def to_east_and_north(u: Array, v: Array, angle: Array) -> tuple[Array, Array]:
     """Turn components along a grid's axes by the angle from east to its x axis [rad]."""
     return u * np.cos(angle) - v * np.sin(angle), u * np.sin(angle) + v * np.cos(angle)
-
-
-def _slice(array: xr.DataArray, part: _Part, slot: int) -> xr.DataArray:
-    if part.time is not None:
-        array = array.isel({part.time: slot})
-    array = array.transpose(part.depth, part.nodes.rows, part.nodes.columns)
-    return array.isel({part.depth: part.levels, part.nodes.rows: part.j, part.nodes.columns: part.i})
 
 
 def _temperatures(standard_name: str, given: Array, S_A: Array, p: Array) -> tuple[Array, Array]:
@@ -219,17 +231,30 @@ def _temperatures(standard_name: str, given: Array, S_A: Array, p: Array) -> tup
     return properties.in_situ_temperature(CT, S_A, p), CT
 
 
-def _notes(file: File, fields: _Fields, frame: Frame, nodes: Nodes) -> dict[str, str]:
-    temperature, salinity = (file.standard_name(name) for name in (fields.temperature, fields.salinity))
+def _notes(fields: _Fields, frame: Frame, bottom: str, count: int) -> dict[str, str]:
+    """Say what was read from where, and what was assumed."""
+    u, v = fields.u, fields.v
     notes = {
-        "temperature": f"{fields.temperature}: {temperature or 'taken as potential temperature (no standard_name)'}",
-        "salinity": f"{fields.salinity}: {salinity or 'taken as practical salinity (no standard_name)'}",
-        "currents": f"{fields.u}, {fields.v}: "
-        + ("east and north" if fields.geographic else f"along the grid's axes, turned by {nodes.how}"),
-        "bottom": f"{file.find('bottom', needed=False)}"
-        if frame.bottom is not None
-        else "the deepest level with water",
+        "temperature": _taken(fields.temperature, "potential temperature"),
+        "salinity": _taken(fields.salinity, "practical salinity"),
+        "bottom": bottom or "the deepest level with water",
     }
+    if u is None or v is None:
+        notes["currents"] = "at rest, as asked"
+    else:
+        how = "east and north" if fields.geographic else f"along the grid's axes, turned by {u.first.nodes.how}"
+        notes["currents"] = f"{u.first.variable}, {v.first.variable}: {how}"
+    if count > 1:
+        notes["files"] = f"{count} files joined"
+    if np.isfinite(frame.period):
+        notes["times"] = "the same every year"
     if frame.depths[0] > _DEEPEST_FIRST_LEVEL:
         notes["surface"] = f"the first level, {frame.depths[0]:g} m, is held up to the surface"
+    if frame.latitude.size == 1:
+        notes["place"] = "one place: the same everywhere"
     return notes
+
+
+def _taken(series: Series, otherwise: str) -> str:
+    """Say which quantity a variable was taken for."""
+    return f"{series.first.variable}: {_standard_name(series, 0) or f'taken as {otherwise} (no standard_name)'}"

@@ -11,67 +11,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.ocean import times
+from stommel.ocean.answers import DEEPEST, Region, Sample, Source, depth_refusal, refusal, sample_of
 from stommel.ocean.column import fill_column
-from stommel.ocean.errors import BelowBottomError, LandError, OutsideOceanError
+from stommel.ocean.errors import LandError, OutsideOceanError, UnknownOceanError
 from stommel.ocean.grid import (
     BOTTOM,
-    CT,
+    CLIMATOLOGY,
     CT_ROW,
-    EAST,
-    EAST_ACCELERATION,
     HELD,
-    LAND,
-    NORTH,
-    NORTH_ACCELERATION,
-    OUTSIDE_SPACE,
-    OUTSIDE_TIME,
     RHO,
-    S_A,
     SALINITY,
-    TEMPERATURE,
     UNBOUNDED_DEPTH,
     Column,
     OceanGrid,
-    P,
     new_cell,
     new_column,
 )
-from stommel.ocean.summary import extent_of, node_places, summary_of
+from stommel.ocean.outside import policy, with_policies
+from stommel.ocean.summary import around, node_places, ranges_of, summary_of
 from stommel.ocean.times import Time
 from stommel.seawater.stratification import Stratification
-from stommel.seawater.table import DensityTable, density_table
+from stommel.seawater.table import DensityTable, SeawaterTable, density_table, freezing_table, sound_speed_table
 
+BLEND_KM = 50.0
+"""Beyond the edge of the data, over which the nearest values give way to a climatology."""
+BLEND_H = 24.0
+"""The same before the first and after the last time."""
 _SAMPLE_STEP = 10.0
 """Largest step of the column that answers a single question [m]."""
-_DEEPEST = 11900.0
-
-
-@dataclass(frozen=True)
-class Sample:
-    """The water at one point; SI units unless noted."""
-
-    density: float
-    """[kg/m3]"""
-    pressure: float
-    """Gauge pressure [Pa]."""
-    temperature: float
-    """In-situ temperature [deg C]."""
-    conservative_temperature: float
-    """[deg C]"""
-    absolute_salinity: float
-    """[g/kg]"""
-    current_north: float
-    """[m/s]"""
-    current_east: float
-    """[m/s]"""
-    acceleration_north: float
-    """Of the water, DU/Dt [m/s2]."""
-    acceleration_east: float
-    """[m/s2]"""
-    bottom_depth: float
-    """[m]; infinite where the ocean has no bottom."""
-    held: bool
-    """The point lies outside the data, and the ocean's policy answered."""
 
 
 @dataclass(frozen=True)
@@ -87,44 +54,96 @@ class Ocean:
     @classmethod
     def open(
         cls,
-        path: str | Path,
+        path: Source,
         *,
+        folder: Path | None = None,
         names: Mapping[str, str] | None = None,
         outside: str = "error",
         outside_time: str | None = None,
-        bounds: tuple[float, float, float, float] | None = None,
+        climatology: "Ocean | Source | None" = None,
+        blend_km: float = BLEND_KM,
+        blend_h: float = BLEND_H,
+        bounds: Region | None = None,
         between: tuple[Time, Time] | None = None,
+        yearly: bool | None = None,
+        at_rest: bool = False,
+        parameters: Mapping[str, Any] | None = None,
     ) -> Self:
-        """Read an ocean from a CF NetCDF file.
+        """Read an ocean from CF NetCDF files, or from a profile (a file that ends in .csv, see `from_profile`).
 
         Parameters
         ----------
         path
             File with temperature, salinity, two components of the current and, if it has it, the depth of the bottom,
-            on depth levels and a regular or curvilinear grid.
+            on depth levels and a regular or curvilinear grid; or several that have these among them, for one stretch
+            of time after the other or one quantity each; or a pattern like `sea_2016*.nc`.
+        folder
+            Where relative names are sought first.
         names
             Names of the file's variables where `standard_name` does not tell: `temperature`, `salinity`, `current_x`,
-            `current_y`, `bottom`, `time`, `depth`, `latitude`, `longitude`.
+            `current_y`, `bottom`, `time`, `depth`, `latitude`, `longitude`, `angle`. For a profile, of its columns.
         outside
-            Beyond the data: "error" refuses, "hold" keeps the nearest values, "climatology" takes the mean of the file.
+            Beyond the data: "error" refuses, "hold" keeps the nearest values, "climatology" goes over to
+            `climatology`, or without one to the mean of the file.
         outside_time
             The same for times, if different.
+        climatology
+            A second ocean, its file, or the name of an analytic one. A file is cut to the region of this ocean and
+            10 deg around it, and repeats every year if it says that it is a climatology, else its times are held.
+        blend_km, blend_h
+            Beyond the edge of the data and their times, over which the nearest values give way to the climatology.
         bounds
             South, north, west, east of the region to read [deg]; all of the file if left out.
         between
             First and last time to read; the file's slots around them are kept.
+        yearly
+            Whether the times repeat every year; if left out, where the file says so (CF, section 7.4).
+        at_rest
+            Read no currents: the water is at rest, as in a climatology of temperature and salinity alone.
+        parameters
+            Numbers of a profile's ocean, see `from_profile`.
 
         Raises
         ------
         FileError
             The file cannot be used; the error names the variable and what is allowed.
         UnknownOceanError
-            A policy or name is unknown.
+            A policy, name or option is unknown, or does not fit.
         """
-        from stommel.ocean.netcdf import read_ocean  # noqa: PLC0415 - xarray takes time to load
+        from stommel.ocean.opening import open_ocean  # noqa: PLC0415 - xarray takes time to load
 
-        policies = (outside, outside if outside_time is None else outside_time)
-        data, notes = read_ocean(Path(path), dict(names or {}), policies, bounds, between)
+        policy(outside)  # a wrong word is said before a large file is read
+        at_times = outside if outside_time is None else outside_time
+        self_mean = policy(at_times, "outside_time") == CLIMATOLOGY and climatology is None
+        found = open_ocean(
+            path, folder, dict(names or {}), bounds, between, yearly, dict(parameters or {}), at_rest=at_rest,
+            mean_slot=self_mean,
+        )  # fmt: skip
+        return cls(*found).with_outside(
+            outside, outside_time, climatology=climatology, blend_km=blend_km, blend_h=blend_h, folder=folder
+        )
+
+    @classmethod
+    def from_profile(cls, path: str | Path, *, columns: Mapping[str, str] | None = None, **parameters: Any) -> Self:
+        """Make an ocean that has the layers of a profile file everywhere, in a steady current.
+
+        Parameters
+        ----------
+        path
+            A file for `stommel.seawater.read_stratification`.
+        columns
+            Its own names of columns.
+        parameters
+            `latitude_deg`, `longitude_deg`, `bottom_m`, `current_east_m_s`, `current_north_m_s`.
+
+        Raises
+        ------
+        FileError, UnknownOceanError
+            The file cannot be used, or a parameter is unknown or not allowed.
+        """
+        from stommel.ocean.profile import read_profile_ocean  # noqa: PLC0415 - as analytic oceans
+
+        data, notes = read_profile_ocean(Path(path), dict(columns or {}), parameters)
         return cls(str(path), data, notes)
 
     @classmethod
@@ -141,21 +160,73 @@ class Ocean:
         data, notes = build_analytic(name, parameters)
         return cls(name, data, notes)
 
+    def with_outside(
+        self,
+        outside: str,
+        outside_time: str | None = None,
+        *,
+        climatology: "Ocean | Source | None" = None,
+        blend_km: float = BLEND_KM,
+        blend_h: float = BLEND_H,
+        folder: Path | None = None,
+    ) -> Self:
+        """Return the ocean with other policies outside its data; the arguments are those of `open`.
+
+        Raises
+        ------
+        FileError, UnknownOceanError
+            A policy is unknown, the climatology cannot be used or is not asked for.
+        """
+        space = policy(outside)
+        time = space if outside_time is None else policy(outside_time, "outside_time")
+        for key, value in (("blend_km", blend_km), ("blend_h", blend_h)):
+            if not 0.0 <= value < np.inf:
+                raise UnknownOceanError(f"{key} = {value:g}: must be at least 0")
+        if climatology is None:
+            second = None
+        elif CLIMATOLOGY in (space, time):
+            second = self._second(climatology, folder)
+        else:
+            raise UnknownOceanError('climatology: is only used with outside or outside_time = "climatology"')
+        data = with_policies(
+            self.data, space, time, second.data if second is not None else None, 1e3 * blend_km, 3600.0 * blend_h
+        )
+        notes = dict(self.notes)
+        if CLIMATOLOGY in (space, time):
+            behind = second.name if second is not None else "the mean of this ocean"
+            notes["climatology"] = f"{behind}, reached {blend_km:g} km and {blend_h:g} h beyond the data"
+            notes |= {f"climatology, {key}": text for key, text in (second.notes if second else {}).items()}
+        return type(self)(self.name, data, notes)
+
+    def _second(self, climatology: "Ocean | Source", folder: Path | None) -> "Ocean":
+        """Open the ocean behind this one."""
+        from stommel.ocean.analytic import ANALYTIC  # noqa: PLC0415 - it imports geodesy
+
+        if isinstance(climatology, Ocean):
+            return climatology
+        if isinstance(climatology, str) and climatology in ANALYTIC:
+            return Ocean.analytic(climatology)
+        return Ocean.open(climatology, folder=folder, outside_time="hold", bounds=around(self.data))
+
     def grid(self) -> OceanGrid:
         """Return the arrays for `stommel.ocean.column.fill_column`."""
         return self.data
 
     @cached_property
     def table(self) -> DensityTable:
-        """Density over the ocean's own range of salinity, temperature and pressure."""
-        wet = self.data.levels > 0
-        S_A_found, CT_found = self.data.water[:, wet][:, :, S_A], self.data.water[:, wet][:, :, CT]
-        deepest = min(max(float(self.data.depths[-1]), self._deepest_bottom()), _DEEPEST / 1.05)
-        return density_table(
-            (max(float(S_A_found.min()) - 0.01, 0.0), min(float(S_A_found.max()) + 0.01, 42.0)),
-            (max(float(CT_found.min()) - 0.01, -5.0), min(float(CT_found.max()) + 0.01, 42.0)),
-            (0.0, 1.05 * deepest + 10.0),
-        )
+        """Density over the ocean's own range of salinity, temperature and pressure, and of what is behind it."""
+        return density_table(*ranges_of(self.data))
+
+    @cached_property
+    def sound_speed_table(self) -> SeawaterTable:
+        """Speed of sound over the same range, for `stommel.seawater.table.tabulated`."""
+        return sound_speed_table(*ranges_of(self.data))
+
+    @cached_property
+    def freezing_table(self) -> SeawaterTable:
+        """Freezing temperature over the same range, for `stommel.seawater.table.tabulated`."""
+        S_A, _, p = ranges_of(self.data)
+        return freezing_table(S_A, p)
 
     def at(self, time: Time, latitude_deg: float, longitude_deg: float, depth_m: float = 0.0) -> Sample:
         """Water at one point, by the interpolation of the compiled code.
@@ -167,32 +238,17 @@ class Ocean:
         LandError
             The place is on land.
         BelowBottomError
-            The depth is negative or below the bottom.
+            The depth is negative, below the bottom or below the deepest trench.
         """
-        steps = max(1, ceil(depth_m / _SAMPLE_STEP)) if depth_m > 0.0 else 1
-        step = depth_m / steps if depth_m > 0.0 else 1.0
-        column = new_column(self.data, depth_m if depth_m > 0.0 else 1.0, step)
+        asked = 0.0 < depth_m <= DEEPEST
+        steps = max(1, ceil(depth_m / _SAMPLE_STEP)) if asked else 1
+        step = depth_m / steps if asked else 1.0
+        column = new_column(self.data, depth_m if asked else 1.0, step)
         held = self._fill(time, latitude_deg, longitude_deg, column)
         bottom = float(column.place[BOTTOM])
-        if not 0.0 <= depth_m <= bottom:
-            what = "above the surface" if depth_m < 0.0 else f"below the bottom at {bottom:.6g} m"
-            raise BelowBottomError(
-                f"{self.name}: depth = {depth_m:g} m at {_place(latitude_deg, longitude_deg)}: {what}"
-            )
-        row = column.values[round(depth_m / step)]
-        return Sample(
-            density=float(row[RHO]),
-            pressure=float(row[P]),
-            temperature=float(row[TEMPERATURE]),
-            conservative_temperature=float(row[CT_ROW]),
-            absolute_salinity=float(row[SALINITY]),
-            current_north=float(row[NORTH]),
-            current_east=float(row[EAST]),
-            acceleration_north=float(row[NORTH_ACCELERATION]),
-            acceleration_east=float(row[EAST_ACCELERATION]),
-            bottom_depth=_or_infinite(bottom),
-            held=held,
-        )
+        if not 0.0 <= depth_m <= min(bottom, DEEPEST):
+            raise depth_refusal(self.name, depth_m, (latitude_deg, longitude_deg), bottom)
+        return sample_of(column.values[round(depth_m / step)], bottom, held=held)
 
     def bottom_depth(self, latitude_deg: float, longitude_deg: float) -> float:
         """Depth of the bottom [m]; infinite where the ocean has none.
@@ -203,8 +259,9 @@ class Ocean:
             As `at`.
         """
         column = new_column(self.data, 1.0, 1.0)
-        self._fill(self._some_time(), latitude_deg, longitude_deg, column)
-        return _or_infinite(float(column.place[BOTTOM]))
+        self._fill(float(self.data.nodes.times[0]), latitude_deg, longitude_deg, column)
+        bottom = float(column.place[BOTTOM])
+        return bottom if bottom < UNBOUNDED_DEPTH else float("inf")
 
     def is_land(self, latitude_deg: float, longitude_deg: float) -> bool:
         """Say whether a place within the data is on land.
@@ -227,10 +284,15 @@ class Ocean:
 
         Raises
         ------
+        UnknownOceanError
+            The step is not a positive number.
         OutsideOceanError, LandError
             As `at`.
         """
-        column = new_column(self.data, min(float(self.data.depths[-1]), self._deepest_bottom()), step_m)
+        if not 0.01 <= step_m <= DEEPEST:
+            raise UnknownOceanError(f"step_m = {step_m:g}: must be between 0.01 and {DEEPEST:g}")
+        deepest = min(float(self.data.nodes.depths[-1]), float(self.data.bottom.max()))
+        column = new_column(self.data, deepest, step_m)
         self._fill(time, latitude_deg, longitude_deg, column)
         depths = np.arange(len(column.values)) * step_m
         kept = depths <= max(column.place[BOTTOM], step_m)
@@ -247,48 +309,17 @@ class Ocean:
         """Latitude and longitude of the nodes (j, i) [deg]."""
         return node_places(self.data)
 
-    def _deepest_bottom(self) -> float:
-        return float(self.data.bottom.max())
-
-    def _some_time(self) -> float:
-        return float(self.data.times[0])
-
     def _fill(self, time: Time, latitude_deg: float, longitude_deg: float, column: Column) -> bool:
         """Fill a column; say whether the policy answered."""
         at = times.seconds(time)
         if not (-90.0 <= latitude_deg <= 90.0 and np.isfinite(longitude_deg)):
             raise OutsideOceanError(
-                f"{_place(latitude_deg, longitude_deg)}: latitude must be between -90 and 90 deg, longitude a number"
+                f"latitude {latitude_deg:g}, longitude {longitude_deg:g}: latitude must be between -90 and 90 deg, "
+                "longitude a number"
             )
         status = fill_column(
             self.data, self.table, at, radians(latitude_deg), radians(longitude_deg), new_cell(), column
         )
         if status > HELD:
-            self._refuse(status, at, latitude_deg, longitude_deg)
+            raise refusal(self.name, self.data, status, at, (latitude_deg, longitude_deg))
         return bool(status == HELD)
-
-    def _refuse(self, status: int, time: float, latitude_deg: float, longitude_deg: float) -> None:
-        place = _place(latitude_deg, longitude_deg)
-        if status == LAND:
-            raise LandError(f"{self.name}: {place} is on land")
-        if status == OUTSIDE_TIME:
-            first, last = (times.text(float(t)) for t in self.data.time_range)
-            raise OutsideOceanError(
-                f"{self.name}: time {times.text(time)} is outside the ocean, which has {first} to {last}; "
-                'outside_time = "hold" or "climatology" allows it'
-            )
-        if status == OUTSIDE_SPACE:
-            extent = extent_of(self.data)
-            low, high = extent["latitude_deg"], extent["longitude_deg"]
-            raise OutsideOceanError(
-                f"{self.name}: {place} is outside the ocean, which lies within latitude {low[0]:.4g} to {low[1]:.4g}, "
-                f'longitude {high[0]:.4g} to {high[1]:.4g}; outside = "hold" or "climatology" allows it'
-            )
-
-
-def _place(latitude_deg: float, longitude_deg: float) -> str:
-    return f"latitude {latitude_deg:g}, longitude {longitude_deg:g}"
-
-
-def _or_infinite(bottom: float) -> float:
-    return bottom if bottom < UNBOUNDED_DEPTH else float("inf")

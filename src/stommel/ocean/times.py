@@ -24,22 +24,31 @@ def seconds(time: Time) -> float:
         The text is not ISO 8601.
     """
     if isinstance(time, np.datetime64):
-        return float((time - np.datetime64(0, "s")) / np.timedelta64(1, "ns")) * 1e-9
-    if isinstance(time, str):
+        value = float((time - np.datetime64(0, "s")) / np.timedelta64(1, "ns")) * 1e-9
+    elif isinstance(time, datetime):
+        value = _of_date(time)
+    elif isinstance(time, str):
         try:
-            time = datetime.fromisoformat(time.strip())
-        except ValueError:
+            value = _of_date(datetime.fromisoformat(time.strip()))
+        except (ValueError, OverflowError):
             raise TimeError(f"time = {time!r}: must be like 2016-02-01T12:00:00 (UTC)") from None
-    if isinstance(time, datetime):
-        return (time if time.tzinfo else time.replace(tzinfo=UTC)).timestamp()
-    value = float(time)
+    else:
+        value = float(time)
     if not np.isfinite(value):
-        raise TimeError(f"time = {value}: must be a finite number of seconds since 1970-01-01")
+        raise TimeError(f"time = {time}: must be a date, or a finite number of seconds since 1970-01-01")
     return value
+
+
+def _of_date(date: datetime) -> float:
+    return (date if date.tzinfo else date.replace(tzinfo=UTC)).timestamp()
 
 
 def text(time: float) -> str:
     """ISO 8601 text of seconds since 1970-01-01 UTC; words for no limit."""
     if not np.isfinite(time):
         return "always"
-    return datetime.fromtimestamp(round(time), UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+    try:
+        date = datetime.fromtimestamp(round(time), UTC)
+    except (ValueError, OverflowError, OSError):
+        return f"{time:g} s after 1970-01-01"
+    return date.strftime("%Y-%m-%dT%H:%M:%SZ")

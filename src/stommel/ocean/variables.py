@@ -47,10 +47,16 @@ _UNITS: dict[str, dict[str, tuple[float, float]]] = {
         "degrees_celsius": (1.0, 0.0), "°c": (1.0, 0.0), "k": (1.0, -273.15), "kelvin": (1.0, -273.15),
         "degk": (1.0, -273.15),
     },
-    "salinity": dict.fromkeys(("1", "1e-3", "0.001", "psu", "pss-78", "pss", "g kg-1", "g/kg", "ppt"), (1.0, 0.0)),
+    "salinity": {
+        **dict.fromkeys(
+            ("1", "1e-3", "1e-03", "0.001", "10-3", "psu", "pss-78", "pss", "g kg-1", "g/kg", "ppt", "‰"), (1.0, 0.0)
+        ),
+        "kg kg-1": (1000.0, 0.0), "kg/kg": (1000.0, 0.0),
+    },
     "velocity": {
         **dict.fromkeys(("m s-1", "m/s", "ms-1"), (1.0, 0.0)),
         **dict.fromkeys(("cm s-1", "cm/s"), (0.01, 0.0)),
+        **dict.fromkeys(("mm s-1", "mm/s"), (0.001, 0.0)),
     },
     "length": {"m": (1.0, 0.0), "km": (1000.0, 0.0), "cm": (0.01, 0.0)},
     "length_of_map": {"m": (1.0, 0.0), "km": (1000.0, 0.0), "cm": (0.01, 0.0)},
@@ -96,10 +102,12 @@ class File:
     def find(self, what: str, *, needed: bool = True) -> str | None:
         """Name of the variable that is `what`, by the user's names or by its standard name."""
         if what in self.names:
-            if self.names[what] not in self.data.variables:
-                there = ", ".join(map(str, self.data.variables))
+            if self.names[what] in self.data.variables:
+                return self.names[what]
+            if needed:
+                there = ", ".join(map(str, self.data.variables)) or "none"
                 self.refuse(what, f"names: {what} = {self.names[what]!r}: no such variable; there are: {there}")
-            return self.names[what]
+            return None
         for standard in STANDARD_NAMES[what]:
             found = [str(n) for n, v in self.data.variables.items() if v.attrs.get("standard_name") == standard]
             # a surface field may carry the name of the full one
@@ -111,8 +119,11 @@ class File:
                 return found[0]
         if needed:
             accepted = ", ".join(STANDARD_NAMES[what])
+            there = ", ".join(map(str, self.data.data_vars)) or "none"
             self.refuse(
-                what, f"no variable for {what}: none has the standard_name {accepted}; name it with {what} = ..."
+                what,
+                f"no variable for {what}: none has the standard_name {accepted}; say which it is by its name "
+                f"({what} = ...); there are: {there}",
             )
         return None
 
@@ -122,9 +133,16 @@ class File:
 
     def numbers(self, variable: str, quantity: str, values: xr.DataArray | None = None) -> Array:
         """Read a variable, or a part of it: unpacked at double precision, nan where nothing is, in SI units."""
-        array = self.data[variable] if values is None else values
         factor, summand = self._unit(variable, quantity)
-        found = unpacked(np.asarray(array.values), self.data[variable].attrs) * factor + summand
+        raw = self.raw(variable, values)
+        if not np.issubdtype(raw.dtype, np.number):
+            self.refuse(variable, f"{variable} holds {raw.dtype}; must hold numbers")
+        try:
+            found = unpacked(raw, self.data[variable].attrs) * factor + summand
+        except (ValueError, TypeError) as error:
+            self.refuse(
+                variable, f"{variable} cannot be unpacked by its scale_factor, add_offset and valid_range: {error}"
+            )
         if quantity in _SENSIBLE:
             low, high = _SENSIBLE[quantity]
             wrong = found[(found < low) | (found > high)]
@@ -135,6 +153,15 @@ class File:
                     "is it a fill value that _FillValue does not name, or are the units wrong?",
                 )
         return found
+
+    def raw(self, variable: str, values: xr.DataArray | None = None) -> NDArray[Any]:
+        """Read a variable, or a part of it, as it is stored."""
+        array = self.data[variable] if values is None else values
+        try:
+            return np.asarray(array.values)
+        except (OSError, RuntimeError, ValueError, MemoryError) as error:
+            reason = " ".join(str(error).split()) or type(error).__name__
+            self.refuse(variable, f"{variable} cannot be read ({reason}); the file is damaged or was cut short")
 
     def _unit(self, variable: str, quantity: str) -> tuple[float, float]:
         given = str(self.data[variable].attrs.get("units", "")).strip()
@@ -159,16 +186,18 @@ def _plain(unit: str) -> str:
 
 def unpacked(raw: NDArray[Any], attributes: Mapping[str, Any]) -> Array:
     """Numbers of a packed variable (CF conventions, section 8.1, and 2.5.1 on missing data)."""
-    found: Array = raw.astype(np.float64)
+    found: Array = np.array(raw, dtype=np.float64)
     missing = ~np.isfinite(found) | (np.abs(found) > _NO_NUMBER)
     for name in ("_FillValue", "missing_value"):
         for value in np.atleast_1d(attributes.get(name, [])):
             missing |= raw == value
-    low, high = attributes.get("valid_range", (attributes.get("valid_min"), attributes.get("valid_max")))
+    bounds = np.atleast_1d(attributes.get("valid_range", []))
+    low, high = bounds if bounds.size == 2 else (attributes.get("valid_min"), attributes.get("valid_max"))
     if low is not None:
         missing |= raw < low
     if high is not None:
         missing |= raw > high
-    found = found * np.float64(attributes.get("scale_factor", 1.0)) + np.float64(attributes.get("add_offset", 0.0))
+    found = np.asarray(found * np.float64(attributes.get("scale_factor", 1.0)))
+    found += np.float64(attributes.get("add_offset", 0.0))
     found[missing] = np.nan
     return found

@@ -1,4 +1,4 @@
-"""Seawater by TEOS-10: density, sound speed, freezing, pressure, stratification, a density table for compiled code."""
+"""Seawater by TEOS-10: density, sound speed, freezing, pressure, stratification, tables for compiled code."""
 
 from stommel.seawater.profile_file import read_stratification
 from stommel.seawater.properties import (
@@ -14,12 +14,20 @@ from stommel.seawater.properties import (
     sound_speed,
 )
 from stommel.seawater.stratification import Stratification, StratificationError
-from stommel.seawater.table import DensityTable, DensityTableError, density_table
+from stommel.seawater.table import (
+    DensityTable,
+    DensityTableError,
+    SeawaterTable,
+    density_table,
+    freezing_table,
+    sound_speed_table,
+)
 
 __all__ = [
     "DensityTable",
     "DensityTableError",
     "SeawaterRangeError",
+    "SeawaterTable",
     "Stratification",
     "StratificationError",
     "absolute_salinity",
@@ -28,9 +36,11 @@ __all__ = [
     "density",
     "density_table",
     "depth_from_pressure",
+    "freezing_table",
     "freezing_temperature",
     "in_situ_temperature",
     "pressure_from_depth",
     "read_stratification",
     "sound_speed",
+    "sound_speed_table",
 ]

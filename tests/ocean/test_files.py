@@ -136,6 +136,15 @@ def test_bounds_and_times_cut_the_file(sea_file: Writer) -> None:
         part.at(START + 11 * 3600.0, 12.5, 179.5)
 
 
+def test_an_interval_after_the_file_needs_a_policy(sea_file: Writer) -> None:
+    path, later = sea_file(), ("2020-04-01", "2020-04-02")
+    with pytest.raises(FileError, match="it has 2020-03-01T00:00:00Z to 2020-03-01T12:00:00Z"):
+        Ocean.open(path, between=later)
+    held = Ocean.open(path, between=later, outside_time="hold")
+    assert len(held.data.nodes.times) == 1
+    assert held.at(later[0], 12.5, 179.5, 20.0).current_east == pytest.approx(0.1 + 0.12 - 0.004, abs=1e-6)
+
+
 def test_names_override_standard_names(sea_file: Writer) -> None:
     def hide(data: xr.Dataset) -> None:
         del data.to.attrs["standard_name"]
@@ -190,6 +199,11 @@ def all_land(data: xr.Dataset) -> None:
     data["to"] = (data.to * np.nan).assign_attrs(data.to.attrs)
 
 
+def never_both(data: xr.Dataset) -> None:
+    data["to"] = data.to.where(data.lat < 12.0).assign_attrs(data.to.attrs)
+    data["so"] = data.so.where(data.lat >= 12.0).assign_attrs(data.so.attrs)
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -204,7 +218,8 @@ def all_land(data: xr.Dataset) -> None:
         (other_unit, ["uo has the units 'knots'", "m s-1"]),
         (odd_calendar, ["calendar '360_day'"]),
         (no_salinity, ["no variable for salinity", "sea_water_salinity"]),
-        (all_land, ["no place with temperature"]),
+        (all_land, ["to has no number at 2020-03-01T00:00:00Z"]),
+        (never_both, ["no place with temperature, salinity and currents"]),
     ],
 )
 def test_what_is_wrong_with_a_file_is_said(

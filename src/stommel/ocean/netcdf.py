@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.ocean import times as clock
 from stommel.ocean.answers import Region
 from stommel.ocean.axes import time_dimension
 from stommel.ocean.build import Frame, Slot, ocean_grid
@@ -50,6 +51,8 @@ class Reading:
     yearly: bool | None = None
     at_rest: bool = False
     mean_slot: bool = False
+    beyond: bool = False
+    """Times outside the files are answered by a policy: none of them need be in `between`."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +84,7 @@ def _read(files: Sequence[File], reading: Reading) -> tuple[OceanGrid, dict[str,
     fields = _fields(files, at_rest=reading.at_rest)
     first, nodes = fields.temperature, fields.temperature.first.nodes
     yearly = first.of_every_year if reading.yearly is None else reading.yearly
-    slots = np.arange(len(first.times)) if yearly else _slots(first, reading.between)
+    slots = np.arange(len(first.times)) if yearly else _slots(first, reading)
     j, i = inside(first.first.file, nodes, reading.bounds)
     _check_size(first.first, len(slots), len(j), len(i))
     box = np.ix_(j, i)
@@ -133,16 +136,17 @@ def _series(files: Sequence[File], what: str, known: Layouts, *, turned: bool = 
     return series_of(what, [layout_of(file, str(file.find(what)), known, turned=turned) for file in holders])
 
 
-def _slots(series: Series, between: tuple[Time, Time] | None) -> NDArray[np.intp]:
+def _slots(series: Series, reading: Reading) -> NDArray[np.intp]:
     """Indices of the times that a mission between two times needs."""
     times = series.times
-    if between is None or series.first.time is None:
+    if reading.between is None or series.first.time is None:
         return np.arange(len(times))
-    first, last = seconds(between[0]), seconds(between[1])
+    first, last = seconds(reading.between[0]), seconds(reading.between[1])
     if last < first:
         raise UnknownOceanError("between: the last time must not be before the first")
-    if last < series.spoken_for[0] or first > series.spoken_for[1]:
-        series.first.file.refuse("time", "has no times in the wanted interval")
+    if not reading.beyond and (last < series.spoken_for[0] or first > series.spoken_for[1]):
+        covered = " to ".join(clock.text(time) for time in series.spoken_for)
+        series.first.file.refuse("time", f"has no times in the wanted interval; it has {covered}")
     start = min(max(int(np.searchsorted(times, first, side="right")) - 1, 0), len(times) - 1)
     return np.arange(start, max(min(int(np.searchsorted(times, last, side="left")) + 1, len(times)), start + 1))
 

@@ -18,6 +18,7 @@ from stommel.ocean.grid import (
     BOTTOM,
     CLIMATOLOGY,
     CT_ROW,
+    ERROR,
     HELD,
     RHO,
     SALINITY,
@@ -95,7 +96,8 @@ class Ocean:
         bounds
             South, north, west, east of the region to read [deg]; all of the file if left out.
         between
-            First and last time to read; the file's slots around them are kept.
+            First and last time to read; the file's slots around them are kept. None of them need lie in the file if
+            `outside_time` is not "error".
         yearly
             Whether the times repeat every year; if left out, where the file says so (CF, section 7.4).
         at_rest
@@ -113,11 +115,10 @@ class Ocean:
         from stommel.ocean.opening import open_ocean  # noqa: PLC0415 - xarray takes time to load
 
         policy(outside)  # a wrong word is said before a large file is read
-        at_times = outside if outside_time is None else outside_time
-        self_mean = policy(at_times, "outside_time") == CLIMATOLOGY and climatology is None
+        at_times = policy(outside if outside_time is None else outside_time, "outside_time")
         found = open_ocean(
             path, folder, dict(names or {}), bounds, between, yearly, dict(parameters or {}), at_rest=at_rest,
-            mean_slot=self_mean,
+            mean_slot=at_times == CLIMATOLOGY and climatology is None, beyond=at_times != ERROR,
         )  # fmt: skip
         return cls(*found).with_outside(
             outside, outside_time, climatology=climatology, blend_km=blend_km, blend_h=blend_h, folder=folder

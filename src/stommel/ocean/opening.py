@@ -24,6 +24,7 @@ def open_ocean(
     *,
     at_rest: bool,
     mean_slot: bool,
+    beyond: bool,
 ) -> tuple[str, OceanGrid, dict[str, str]]:
     """Name, grid and notes of an ocean; `Ocean.open` describes the arguments."""
     paths = paths_of(source, folder)
@@ -35,6 +36,6 @@ def open_ocean(
         raise UnknownOceanError(
             f"{paths[0]}: parameter {next(iter(parameters))}: only a profile or an analytic ocean has parameters"
         )
-    data, notes = read_ocean(paths, Reading(names, bounds, between, yearly, at_rest, mean_slot))
+    data, notes = read_ocean(paths, Reading(names, bounds, between, yearly, at_rest, mean_slot, beyond))
     name = str(paths[0]) if len(paths) == 1 else f"{paths[0]} and {len(paths) - 1} more"
     return name, data, notes

@@ -18,10 +18,13 @@ WHOLE_MB = 4 * 4 * TIMES * LEVELS * ROWS * COLUMNS / 1e6
 """The four fields at single precision, as they would lie in memory."""
 
 _PROGRAM = """
-import json, resource, sys
+import json, sys
 from stommel.ocean import Ocean
 import netCDF4, pyproj, gsw, stommel.ocean.netcdf
-def peak(): return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
+from pathlib import Path
+def peak():  # of this process alone: what getrusage says begins with the parent's
+    lines = Path("/proc/self/status").read_text().splitlines()
+    return next(int(line.split()[1]) for line in lines if line.startswith("VmHWM")) / 1e3
 before = peak()
 ocean = Ocean.open(sys.argv[1], bounds=(20, 23, 130, 133), between=("2020-03-05", "2020-03-06"))
 water = ocean.data.nodes.water
@@ -64,11 +67,13 @@ def large(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_region_and_two_days_of_a_large_file(large: Path) -> None:
     """At most a tenth of what all of it would take."""
+    if not Path("/proc/self/status").exists():
+        pytest.skip("no /proc: the peak of memory is not known")
     done = subprocess.run([sys.executable, "-c", _PROGRAM, str(large)], capture_output=True, text=True, check=True)
     found = json.loads(done.stdout)
     assert found["shape"][0] == 2
     assert found["t"] == pytest.approx(10.0 + 0.1 * 4, abs=1e-5)
-    assert found["mb"] < 0.1 * WHOLE_MB
+    assert found["mb"] < 0.1 * WHOLE_MB, found
 
 
 def test_only_what_is_wanted_is_asked_of_the_file(large: Path, monkeypatch: pytest.MonkeyPatch) -> None:

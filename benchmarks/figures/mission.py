@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 
 from figures.registry import Measurement, figure
-from stommel.simulation.mission import Flown, Mission, fly_mission, load_mission
-from stommel.simulation.parameters import STATE_COLUMNS
+from stommel.simulation.flight import Flown, fly_mission
+from stommel.simulation.loading import load_mission
+from stommel.simulation.memory import STATE_COLUMNS
+from stommel.simulation.mission import Mission
 from stommel.simulation.shipped import mission_path
 from stommel.simulation.summary import summary
 
@@ -21,7 +23,8 @@ FINER = 10
 _MEMORY = """
 import sys
 from pathlib import Path
-from stommel.simulation.mission import fly_mission, load_mission
+from stommel.simulation.flight import fly_mission
+from stommel.simulation.loading import load_mission
 from stommel.simulation.results import dataset_of, write_netcdf
 from stommel.simulation.shipped import mission_path
 flown = fly_mission(load_mission(mission_path(sys.argv[1])))

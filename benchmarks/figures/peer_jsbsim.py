@@ -18,6 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from figures.reference_flight import Leg, ReferenceFlight
+from stommel.analysis.flight_table import flight_table
+from stommel.control.flight_table import look_up_turning
+from stommel.control.laws import steering_gains
+from stommel.vehicle import PHYSICS
 
 Array = NDArray[np.float64]
 
@@ -149,21 +153,24 @@ class DivePlan:
     """Turn to dive [m]."""
     heading: float
     """[rad]"""
-    gain: float
-    """Radians of rudder for each of heading error."""
-    damping: float
-    """Radians of rudder for each radian a second [s]."""
+    steering: tuple[float, float]
+    """Radians of rudder for each of heading error, on the descent and on the climb, where the rudder acts the other
+    way."""
     limit: float
     """Of the rudder [rad]."""
 
 
 def plan_of(flight: ReferenceFlight) -> DivePlan:
-    """The mission's own settings, depths and gains; north."""
+    """The mission's own settings, depths and answer to heading errors; north."""
     plan = flight.mission.plan
     law = plan.heading_control
+    down, up = flight.leg(True), flight.leg(False)
+    table = flight_table(flight.mission.vehicle, physics=PHYSICS[plan.physics])
+    turning = [look_up_turning(table, leg.pitch, leg.ballast) for leg in (down, up)]
+    gains = [steering_gains(law.response_s, pole)[0] / drive for pole, drive in turning]
     return DivePlan(
-        down=flight.leg(True), up=flight.leg(False), depth=plan.dives.depth_m, turn_depth=plan.dives.turn_depth_m,
-        heading=0.0, gain=law.gain, damping=law.damping_s, limit=radians(law.limit_deg),
+        down=down, up=up, depth=plan.dives.depth_m, turn_depth=plan.dives.turn_depth_m,
+        heading=0.0, steering=(gains[0], gains[1]), limit=radians(law.limit_deg),
     )  # fmt: skip
 
 
@@ -205,7 +212,7 @@ def fly(fdm: Any, plan: DivePlan, seconds: int, rate: int = DEFAULT_RATE) -> Arr
             _command(fdm, leg)
         heading = fdm["attitude/psi-rad"]
         error = atan2(sin(plan.heading - heading), cos(plan.heading - heading))
-        rudder = plan.gain * error - plan.damping * fdm["velocities/psidot-rad_sec"]
+        rudder = plan.steering[leg is plan.up] * error
         fdm["commands/rudder-rad"] = min(plan.limit, max(-plan.limit, rudder))
         if second % _OUTPUT_PERIOD == _OUTPUT_PERIOD - 1:
             rows[second // _OUTPUT_PERIOD] = (

@@ -9,7 +9,7 @@ from threading import Event
 from time import perf_counter
 
 from figures.registry import Measurement, figure
-from stommel.simulation.mission import mission_from
+from stommel.simulation.loading import mission_from
 from stommel.simulation.shipped import mission_path
 from stommel.simulation.studies.flight import fly_run
 from stommel.simulation.studies.journal import Journal

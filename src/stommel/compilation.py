@@ -38,7 +38,11 @@ def inlined(function: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Re
 
     Inlining is forced: left to itself the compiler makes calls of the larger blocks, passes their tuples through memory
     and repeats what they share (the rotation, the sine and cosine of the mass's roll), at half as much time again.
+
+    A building block allocates nothing, and so counts no references to the arrays that it is given: in the mission loop
+    that counting took a fifth of the time.
     """
-    decorate: Any = numba.njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
+    njit: Any = numba.njit
+    decorate = njit(error_model="numpy", fastmath={"contract"}, forceinline=True, _nrt=False)
     decorated: Callable[_Arguments, _Result] = decorate(function)
     return decorated

@@ -23,7 +23,7 @@ _KEPT = 24
 @cache
 def folder_of(package: str) -> Path:
     """Return the cache folder of a package of stommel; it lies in the user's cache, or in the temporary folder."""
-    digest = hashlib.sha256(package.encode())
+    digest = hashlib.sha256(package.encode() + (PACKAGE / "compilation.py").read_bytes())
     for layer in LAYERS:
         for name in layer:
             digest.update(_hash_of(name))

@@ -41,7 +41,8 @@ def test_every_number_of_the_energy_tables_is_tried(zju: Vehicle, study: EnergyS
         for key in zju.provenance
         if key.split(".")[0] in {"battery", "energy", "consumers"} and isinstance(zju_value(zju, key), int | float)
     }
-    assert stated - tried == {"energy.slowest_speed_m_s"}  # bounds the search, not the dive
+    # the first bounds the search, not the dive; the second lowers the voltage that missions report, not the energy
+    assert stated - tried == {"energy.slowest_speed_m_s", "battery.internal_resistance_ohm"}
 
 
 def zju_value(vehicle: Vehicle, key: str) -> object:

@@ -6,7 +6,9 @@ from typing import Any
 
 import pytest
 
-from stommel.simulation.mission import Flown, Mission, fly_mission, mission_from
+from stommel.simulation.flight import Flown, fly_mission
+from stommel.simulation.loading import mission_from
+from stommel.simulation.mission import Mission
 from stommel.simulation.results import dataset_of, netcdf_bytes
 
 Document = dict[str, Any]

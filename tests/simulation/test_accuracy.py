@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from stommel.simulation.mission import Flown
-from stommel.simulation.parameters import STATE_COLUMNS, SURFACING_COLUMNS
+from stommel.simulation.flight import Flown
+from stommel.simulation.memory import STATE_COLUMNS, SURFACING_COLUMNS
 from stommel.simulation.summary import summary
 from tests.simulation.conftest import QUIET, flown
 

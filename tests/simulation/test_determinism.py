@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stommel.simulation import mission as mission_module
-from stommel.simulation.mission import Flown
+from stommel.simulation import flight as flight_module
+from stommel.simulation.flight import Flown
 from tests.simulation.conftest import file_of, flown
 
 
@@ -36,9 +36,9 @@ def test_another_seed_differs_in_noise_only(quarter_day: Flown) -> None:
 
 def test_pieces_change_nothing(quarter_day: Flown, monkeypatch: pytest.MonkeyPatch) -> None:
     """Uninterrupted or in 37 pieces of unequal contents: the same record."""
-    monkeypatch.setattr(mission_module, "_PIECE_DAYS", 0.25 / 37.3)
+    monkeypatch.setattr(flight_module, "_PIECE_DAYS", 0.25 / 37.3)
     shares: list[float] = []
-    document_flown = mission_module.fly_mission(quarter_day.mission, progress=shares.append)
+    document_flown = flight_module.fly_mission(quarter_day.mission, progress=shares.append)
     assert len(shares) > 30
     np.testing.assert_array_equal(document_flown.record, quarter_day.record)
     np.testing.assert_array_equal(document_flown.surfacings, quarter_day.surfacings)

@@ -7,8 +7,8 @@ import pytest
 
 from stommel.analysis.trim import steady_flight
 from stommel.control.dive_cycle import ASCENT, DESCENT
-from stommel.simulation.mission import Flown
-from stommel.simulation.parameters import STATE_COLUMNS
+from stommel.simulation.flight import Flown
+from stommel.simulation.memory import STATE_COLUMNS
 from stommel.vehicle import PAPER
 from tests.simulation.conftest import QUIET, flown
 
@@ -25,7 +25,7 @@ def still() -> Flown:
         heading_deg=45.0,
         sensors=QUIET,
         pitch_control={"gain_mm_per_deg": 0.0, "tolerance_mm": 1e-6},
-        heading_control={"gain": 0.0, "damping_s": 0.0},
+        heading_control={"limit_deg": 0.0},
         ocean={"name": "still", "parameters": {"density_kg_m3": 1000.0}},
     )
 

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from stommel.simulation.mission import Mission, load_mission
+from stommel.simulation.loading import load_mission
+from stommel.simulation.mission import Mission
 from tests.cli.conftest import Command, stommel
 
 __all__ = ["stommel"]

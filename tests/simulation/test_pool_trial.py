@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stommel.simulation.mission import Flown, fly_mission, mission_from
-from stommel.simulation.parameters import STATE_COLUMNS
+from stommel.simulation.flight import Flown, fly_mission
+from stommel.simulation.loading import mission_from
+from stommel.simulation.memory import STATE_COLUMNS
 from stommel.simulation.shipped import mission_path
 
 

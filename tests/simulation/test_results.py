@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from stommel.errors import OutputError
-from stommel.simulation.mission import Flown
+from stommel.simulation.flight import Flown
 from stommel.simulation.results import dataset_of, write_netcdf
 from tests.simulation.conftest import made
 
@@ -80,7 +80,8 @@ def test_full_disk_leaves_nothing(tmp_path: Path) -> None:
 
 MEMORY = """
 from pathlib import Path
-from stommel.simulation.mission import fly_mission, load_mission
+from stommel.simulation.flight import fly_mission
+from stommel.simulation.loading import load_mission
 from stommel.simulation.results import dataset_of, write_netcdf
 from stommel.simulation.shipped import mission_path
 import sys

@@ -126,9 +126,9 @@ def trim_many(
     return codes
 
 
-@inlined
-def _flight_at_ballast(vehicle: np.record, theta: float, V_b: float, water: Water, z: np.ndarray) -> int:
-    """Trim at pitch `theta` and ballast volume `V_b`, with speed and moving mass to be found."""
+@compiled
+def trim_at_ballast(vehicle: np.record, theta: float, V_b: float, water: Water, z: np.ndarray) -> int:
+    """Find the wings-level flight at pitch `theta` [rad] that the ballast volume `V_b` [m3] drives."""
     alpha = angle_of_attack_at_pitch(vehicle, theta)
     gamma = theta - alpha
     W = (vehicle.m - water.rho * (vehicle.V_0 + V_b)) * vehicle.g
@@ -140,12 +140,6 @@ def _flight_at_ballast(vehicle: np.record, theta: float, V_b: float, water: Wate
     z[V], z[ALPHA], z[THETA], z[V_B] = math.sqrt(V_square), alpha, theta, V_b
     z[R_PX] = -vehicle.s_0[0] / vehicle.m_p
     return newton(vehicle, z, np.array([V, ALPHA, R_PX]), _PITCH_EQUATIONS, water, 0.0, 0.0)
-
-
-@compiled
-def trim_at_ballast(vehicle: np.record, theta: float, V_b: float, water: Water, z: np.ndarray) -> int:
-    """Find the wings-level flight at pitch `theta` [rad] that the ballast volume `V_b` [m3] drives."""
-    return _flight_at_ballast(vehicle, theta, V_b, water, z)
 
 
 @compiled
@@ -183,7 +177,7 @@ def flight_of_settings(vehicle: np.record, r_px: float, V_b: float, water: Water
     previous = math.nan
     for i in range(1, 179):
         theta = math.radians(0.5 * i)
-        code = _flight_at_ballast(vehicle, -theta if downwards else theta, V_b, water, guess)
+        code = trim_at_ballast(vehicle, -theta if downwards else theta, V_b, water, guess)
         miss = guess[R_PX] - r_px if code == CONVERGED else math.nan
         if abs(miss) < best or miss * previous < 0.0:
             best = 0.0 if miss * previous < 0.0 else abs(miss)

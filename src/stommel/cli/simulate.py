@@ -12,7 +12,8 @@ from stommel.cli.options import JsonOption
 from stommel.cli.output import number, show_json, show_table, show_values
 
 if TYPE_CHECKING:
-    from stommel.simulation.mission import Flown, Mission
+    from stommel.simulation.flight import Flown
+    from stommel.simulation.mission import Mission
 
 
 def simulate(
@@ -39,7 +40,8 @@ def simulate(
         return
     if mission is None:
         raise typer.BadParameter("give a mission file or a shipped mission; --list shows these", param_hint="MISSION")
-    from stommel.simulation.mission import fly_mission, load_mission
+    from stommel.simulation.flight import fly_mission
+    from stommel.simulation.loading import load_mission
     from stommel.simulation.shipped import mission_path
     from stommel.simulation.summary import summary
 

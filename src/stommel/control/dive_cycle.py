@@ -1,14 +1,17 @@
-"""The dive cycle as a table of transitions: surface, descent, inflection, ascent, and the way out (compiled)."""
+"""The dive cycle as a table of transitions: surface, descent, drift, inflection, ascent, and the way out (compiled)."""
 
 from typing import NamedTuple
 
 from stommel.dynamics.compilation import compiled, inlined
 
-SURFACE, DESCENT, INFLECTION, ASCENT, RECOVERY = range(5)
-PHASES = ("surface", "descent", "inflection", "ascent", "recovery")
-"""Names of the phases; in recovery the vehicle stays at the surface and calls."""
+SURFACE, DESCENT, INFLECTION, ASCENT, RECOVERY, DRIFT = range(6)
+PHASES = ("surface", "descent", "inflection", "ascent", "recovery", "drift")
+"""Names of the phases; in recovery the vehicle stays at the surface and calls, in drift it hangs in the water."""
 
-NOTHING, ABORT_DEPTH, ABORT_TIME, ABORT_BATTERY, ABORT_LEAK, MISSION_COMPLETE, BOTTOM_AHEAD, TARGET_REACHED = range(8)
+(
+    NOTHING, ABORT_DEPTH, ABORT_TIME, ABORT_BATTERY, ABORT_LEAK, MISSION_COMPLETE, BOTTOM_AHEAD, TARGET_REACHED,
+    ABORT_PRESSURE,
+) = range(9)  # fmt: skip
 EVENTS = (
     "nothing",
     "abort: too deep",
@@ -18,7 +21,10 @@ EVENTS = (
     "mission complete",
     "bottom ahead",
     "target depth reached",
+    "abort: pressure inside the hull",
 )
+MISSION_ENDS = (ABORT_BATTERY, ABORT_LEAK, ABORT_PRESSURE)
+"""Alarms after which the vehicle comes up and stays; too deep and too long only end the dive."""
 
 
 class DivePlan(NamedTuple):
@@ -34,8 +40,20 @@ class DivePlan(NamedTuple):
     """Ballast volume of the ascent [m3], positive."""
     V_b_surface: float
     """Ballast volume at the surface, to raise the antenna [m3]."""
+    V_b_drift: float
+    """Ballast volume that is neutral at `depth` [m3]."""
+    r_px_drift: float
+    """Moving-mass position at which it then lies level [m]."""
+    r_px_surface: float
+    """Moving-mass position at the surface, which raises the antenna [m]; not a number: where the ascent left it."""
     surface_time: float
     """Time at the surface for position and radio [s]."""
+    longest_surface_time: float
+    """How long the vehicle waits at the surface for a position that does not come [s]."""
+    drift_time: float
+    """How long it hangs in the water at the turn [s]."""
+    surfacing_interval: float
+    """Time under water after which the next ascent goes to the surface [s]."""
     least_altitude: float
     """Height above the bottom at which the vehicle turns [m]."""
     shallow_depth: float
@@ -66,65 +84,77 @@ class DiveState(NamedTuple):
     """What happened last; stays until something else happens."""
 
 
-@compiled
-def next_dive_state(
-    state: DiveState, plan: DivePlan, t: float, depth: float, altitude: float, ballast: float, wanted: bool
-) -> DiveState:
-    """Advance the cycle by measurements.
+class Readings(NamedTuple):
+    """What the vehicle knows when it decides on the phase."""
 
-    Parameters
-    ----------
-    t
-        Time of the mission [s].
-    depth, altitude
-        Measured depth, and height above the bottom (infinite where none is heard) [m].
-    ballast
-        Measured ballast volume [m3].
-    wanted
-        Whether the mission wants another dive.
-    """
+    depth: float
+    """Measured depth [m]."""
+    altitude: float
+    """Measured height above the bottom [m]; infinite where none is heard."""
+    ballast: float
+    """Measured ballast volume [m3]."""
+    wanted: bool
+    """Whether the mission wants another dive."""
+    fixed: bool
+    """Whether a position has been found since it surfaced."""
+    alarm: int
+    """One of `MISSION_ENDS`, or `NOTHING`."""
+
+
+@compiled
+def next_dive_state(state: DiveState, plan: DivePlan, t: float, readings: Readings) -> DiveState:
+    """Advance the cycle by measurements, at time `t` of the mission [s]."""
     phase = int(state.phase)
     if phase == SURFACE:
-        return _at_surface(state, plan, t, wanted)
-    if phase == DESCENT:
-        return _descending(state, plan, t, depth, altitude)
-    if phase == INFLECTION and ballast >= 0.0:
+        return _at_surface(state, plan, t, readings)
+    if phase in (DESCENT, DRIFT):
+        return _below(state, plan, t, readings)
+    if phase == INFLECTION and readings.ballast >= 0.0:
         return _enter(state, ASCENT, t, int(state.event))
     if phase == ASCENT:
-        return _climbing(state, plan, t, depth, wanted)
+        return _climbing(state, plan, t, readings)
     return state
 
 
 @inlined
-def _at_surface(state: DiveState, plan: DivePlan, t: float, wanted: bool) -> DiveState:
-    if t - state.since < plan.surface_time:
+def _at_surface(state: DiveState, plan: DivePlan, t: float, readings: Readings) -> DiveState:
+    waited = t - state.since
+    if waited < plan.surface_time or not (readings.fixed or waited >= plan.longest_surface_time):
         return state
-    if not wanted:
+    if readings.alarm != NOTHING:
+        return _enter(state, RECOVERY, t, readings.alarm)
+    if not readings.wanted:
         return _enter(state, RECOVERY, t, MISSION_COMPLETE)
     return DiveState(float(DESCENT), t, t, state.dives + 1.0, 1.0, state.event)
 
 
 @inlined
-def _descending(state: DiveState, plan: DivePlan, t: float, depth: float, altitude: float) -> DiveState:
-    if depth > plan.abort_depth:
+def _below(state: DiveState, plan: DivePlan, t: float, readings: Readings) -> DiveState:
+    """Descent and drift: whether to turn upwards, and why."""
+    if readings.alarm != NOTHING:
+        return _enter(state, INFLECTION, t, readings.alarm)
+    if readings.depth > plan.abort_depth:
         return _enter(state, INFLECTION, t, ABORT_DEPTH)
     if t - state.submerged_since > plan.abort_time:
         return _enter(state, INFLECTION, t, ABORT_TIME)
-    if depth >= plan.depth:
-        return _enter(state, INFLECTION, t, TARGET_REACHED)
-    if altitude <= plan.least_altitude:
+    if readings.altitude <= plan.least_altitude:
         return _enter(state, INFLECTION, t, BOTTOM_AHEAD)
+    if int(state.phase) == DRIFT:
+        return _enter(state, INFLECTION, t, TARGET_REACHED) if t - state.since >= plan.drift_time else state
+    if readings.depth >= plan.depth:
+        return _enter(state, DRIFT if plan.drift_time > 0.0 else INFLECTION, t, TARGET_REACHED)
     return state
 
 
 @inlined
-def _climbing(state: DiveState, plan: DivePlan, t: float, depth: float, wanted: bool) -> DiveState:
-    again = wanted and state.dives_here < plan.dives_per_surfacing and int(state.event) != ABORT_TIME
-    if again and depth <= plan.turn_depth:
+def _climbing(state: DiveState, plan: DivePlan, t: float, readings: Readings) -> DiveState:
+    time_left = t - state.submerged_since < plan.surfacing_interval and int(state.event) != ABORT_TIME
+    again = readings.wanted and readings.alarm == NOTHING and time_left and state.dives_here < plan.dives_per_surfacing
+    if again and readings.depth <= plan.turn_depth:
         return DiveState(
             float(DESCENT), t, state.submerged_since, state.dives + 1.0, state.dives_here + 1.0, state.event
         )
-    if depth <= plan.shallow_depth:
+    if readings.depth <= plan.shallow_depth:
         return _enter(state, SURFACE, t, int(state.event))
     return state
 
@@ -140,6 +170,8 @@ def wanted_ballast(state: DiveState, plan: DivePlan) -> float:
     phase = int(state.phase)
     if phase == DESCENT:
         return plan.V_b_dive
+    if phase == DRIFT:
+        return plan.V_b_drift
     if phase in (SURFACE, RECOVERY):
         return plan.V_b_surface
     return plan.V_b_climb
@@ -148,4 +180,7 @@ def wanted_ballast(state: DiveState, plan: DivePlan) -> float:
 @compiled
 def wanted_pitch(state: DiveState, plan: DivePlan) -> float:
     """Pitch that the phase asks for [rad]."""
-    return -plan.theta if int(state.phase) == DESCENT else plan.theta
+    phase = int(state.phase)
+    if phase == DRIFT:
+        return 0.0
+    return -plan.theta if phase == DESCENT else plan.theta

@@ -25,6 +25,10 @@ class FlightTable(NamedTuple):
     """Angle of attack [rad] (2 x n x m)."""
     speed: NDArray[np.float64]
     """Speed along the path [m/s] (2 x n x m)."""
+    turn_pole: NDArray[np.float64]
+    """Slowest lateral mode [1/s], negative where it dies out (2 x n x m)."""
+    turn_drive: NDArray[np.float64]
+    """Slow turning answers the steering by r' = pole r + drive times its angle [1/s2] (2 x n x m)."""
     drag_per_mass: float
     """Drag coefficient over the mass that the vehicle must speed up, its water included [1/m]."""
 
@@ -60,3 +64,12 @@ def look_up(table: FlightTable, theta: float, V_b: float) -> tuple[float, float,
         _bilinear(table.alpha[way], i, s, j, t),
         _bilinear(table.speed[way], i, s, j, t),
     )
+
+
+@compiled
+def look_up_turning(table: FlightTable, theta: float, V_b: float) -> tuple[float, float]:
+    """Pole [1/s] and drive [1/s2] of slow turning at pitch `theta` [rad] and ballast `V_b` [m3]."""
+    way = 0 if V_b <= 0.0 else 1
+    i, s = _place(table.theta, abs(theta))
+    j, t = _place(table.V_b, abs(V_b))
+    return _bilinear(table.turn_pole[way], i, s, j, t), _bilinear(table.turn_drive[way], i, s, j, t)

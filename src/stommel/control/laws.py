@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 from stommel.dynamics.compilation import compiled, inlined
 
+TURN = 2.0 * math.pi
+
 
 class PitchLaw(NamedTuple):
     """Feedback on pitch by the moving mass."""
@@ -23,22 +25,35 @@ class PitchLaw(NamedTuple):
 
 
 class HeadingLaw(NamedTuple):
-    """Proportional and derivative law on heading by the rudder, or by the rolling mass."""
+    """Feedback on heading by the rudder, or by the rolling mass."""
 
-    gain: float
-    """Radians of actuator per radian of heading error."""
-    damping: float
-    """Radians of actuator per radian per second of heading rate [s]."""
+    response: float
+    """Time in which a heading error is turned away [s]."""
     dead_band: float
     """Change of command below which the actuator stays [rad]."""
     limit: float
     """Largest command to either side [rad]."""
 
 
+class DriftLaw(NamedTuple):
+    """Feedback on depth by the ballast, while the vehicle hangs in the water."""
+
+    gain: float
+    """Ballast volume for each metre per second by which it sinks too fast, once a period [m3 s/m]."""
+    return_time: float
+    """Time in which it should return to its depth [s]."""
+    fastest: float
+    """Vertical speed of the return, at most [m/s]."""
+    dead_band: float
+    """Distance from the depth that is left alone [m]."""
+    period: float
+    """Time between corrections [s]."""
+
+
 @inlined
 def wrapped(angle: float) -> float:
     """The angle in (-pi, pi]."""
-    return math.atan2(math.sin(angle), math.cos(angle))
+    return angle - TURN * math.ceil((angle - math.pi) / TURN)
 
 
 @compiled
@@ -51,10 +66,50 @@ def pitch_correction(law: PitchLaw, correction: float, theta_wanted: float, thet
 
 
 @compiled
-def steering_command(law: HeadingLaw, previous: float, heading_wanted: float, heading: float, rate: float) -> float:
-    """Next command of rudder or roll mass [rad]; positive turns to starboard, kept while it would change too little."""
-    command = law.gain * wrapped(heading_wanted - heading) - law.damping * rate
-    command = min(law.limit, max(-law.limit, command))
+def drift_correction(law: DriftLaw, correction: float, too_deep: float, sinking: float) -> float:
+    """Next correction of the ballast volume [m3] at a distance below the wanted depth [m] and a vertical speed [m/s].
+
+    Within the dead band nothing is done unless the vehicle leaves it faster than it should return.
+    """
+    wanted = min(law.fastest, max(-law.fastest, -too_deep / law.return_time))
+    if abs(too_deep) < law.dead_band and abs(sinking) < law.dead_band / law.return_time:
+        return correction
+    return correction + law.gain * (sinking - wanted)
+
+
+@compiled
+def steering_gains(response: float, pole: float) -> tuple[float, float]:
+    """Wanted turn acceleration per heading error [1/s2] and per turn rate [1/s] for a response time [s].
+
+    Divided by the flight's drive they are K and D of `steering_command`.
+    """
+    omega = 1.0 / response
+    damping = max(0.0, 2.0 * omega + pole)
+    return 0.5 * omega * (damping - pole), damping
+
+
+@compiled
+def steering_command(law: HeadingLaw, previous: float, error: float, rate: float, pole: float, drive: float) -> float:
+    """Next command of rudder or rolling mass [rad]; kept while it would change too little.
+
+    The turn answers as r' = pole r + drive delta (`stommel.control.flight_table`). With delta = K error - D r its
+    characteristic equation is s^2 + (drive D - pole) s + drive K = 0: D brings the damping to that of a critical answer
+    within the response time, where the flight has less of its own, and K follows. The drive's sign is taken as it is:
+    a climb may turn the other way than a dive.
+
+    Parameters
+    ----------
+    error
+        Wanted less measured heading, in (-pi, pi] [rad].
+    rate
+        Measured turn rate [rad/s].
+    pole, drive
+        Of the flight, [1/s] and [1/s2].
+    """
+    stiffness, damping = steering_gains(law.response, pole)
+    demand = stiffness * error - damping * rate
+    # a flight that hardly answers gets the limit, not a division by nothing
+    command = demand / drive if abs(drive) * law.limit > abs(demand) else math.copysign(law.limit, demand * drive)
     if abs(command - previous) < law.dead_band:
         return previous
     return command

@@ -1,25 +1,18 @@
 """What the actuators do with their commands within one control step (compiled)."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from stommel.dynamics.compilation import inlined
-from stommel.simulation.parameters import (
-    ALWAYS,
-    CLIMB,
-    DIVE,
-    MOVING,
-    PITCH_DRIVE,
-    PUMP,
-    STEERING,
-    SURFACED,
-    UNDERWATER,
-    Plant,
-)
+from stommel.simulation.parameters import PITCH_DRIVE, PUMP, STEERING, Plant
 
 OIL_RESOLUTION = 1e-7
 """Difference of ballast volume that the oil measurement can tell [m3]."""
+
+STEEPEST = 1.5
+"""Pitch beyond which the slope of the mass's rails counts as this steep [rad]."""
 
 
 class Commands(NamedTuple):
@@ -71,19 +64,20 @@ def actuate(
     r_px: float,
     V_b: float,
     pressure: float,
-    slope: float,
+    theta: float,
     step: float,
 ) -> Rates:
     """Rates of moving mass, oil and steering in one control step, and the energy of their work.
 
     Limit switches end the travel, the worm gear holds the mass when its drive is off, the pump loses flow with pressure
-    and stalls, the valve lets oil in. `slope` is tan(pitch).
+    and stalls, the valve lets oil in. `theta` is the pitch [rad].
     """
     goal = min(plant.mass_high, max(plant.mass_low, commands.r_px))
     moving = abs(goal - r_px) > (0.25 * commands.hold_mass if world.mass_moving else commands.hold_mass)
     world.mass_moving = int(moving)
     r_px_dot = 0.0
     if moving:
+        slope = math.tan(max(-STEEPEST, min(STEEPEST, theta)))
         uphill = slope if goal > r_px else -slope
         r_px_dot = _towards(r_px, goal, interpolated(uphill, plant.slope, plant.mass_speed), step)
         world.energy[PITCH_DRIVE] += abs(r_px_dot) * step * interpolated(uphill, plant.slope, plant.mass_j_m)
@@ -106,22 +100,3 @@ def actuate(
     world.steering_moving = int(rate != 0.0)
     world.energy[STEERING] += abs(rate) * step * plant.steering_j_rad
     return Rates(r_px_dot, u_b, middle, rate)
-
-
-@inlined
-def consume(plant: Plant, world: np.record, at_surface: bool, descending: bool, step: float) -> None:
-    """Add the energy of one control step to each consumer's account [J]."""
-    moving = world.pumping or world.valve_open or world.mass_moving or world.steering_moving
-    leg = DIVE if descending else CLIMB
-    total = 0.0
-    for i in range(len(world.energy)):
-        power = plant.power[i, ALWAYS]
-        if at_surface:
-            power += plant.power[i, SURFACED]
-        else:
-            power += plant.power[i, UNDERWATER] + plant.power[i, leg]
-        if moving:
-            power += plant.power[i, MOVING]
-        world.energy[i] += power * step
-        total += world.energy[i]
-    world.energy_total = total

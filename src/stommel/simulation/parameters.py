@@ -1,11 +1,11 @@
-"""What the mission loop is told: numbers of the plant, of the sensors, and of the mission, SI units and radians."""
+"""What the mission loop is told of the plant and of time, SI units and radians."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stommel.dynamics.vectors import Matrix, Vector
+from stommel.dynamics.vectors import Vector
 
 Array = NDArray[np.float64]
 
@@ -22,8 +22,8 @@ CONSUMERS = (
 )
 """Who uses energy, in the order of every array of energies."""
 
-ALWAYS, UNDERWATER, DIVE, CLIMB, SURFACED, MOVING = range(6)
-CONDITIONS = ("always", "underwater", "dive", "climb", "surface", "moving")
+ALWAYS, UNDERWATER, DIVE, CLIMB, SURFACED, MOVING, DRIFTING = range(7)
+CONDITIONS = ("always", "underwater", "dive", "climb", "surface", "moving", "drift")
 """When a consumer is on, in the order of the columns of `Plant.power`."""
 
 
@@ -64,47 +64,26 @@ class Plant(NamedTuple):
     """Electrical energy of the steering drive per angle [J/rad]."""
     power: Array
     """Power of each consumer (rows, `CONSUMERS`) in each condition (columns, `CONDITIONS`) [W]."""
-    surfacing_energy: Array
-    """Energy that a stay at the surface takes at once, by consumer [J]."""
+    call_consumer: NDArray[np.int64]
+    """Consumers that are on for a given time at each surfacing: whose they are (`CONSUMERS`)."""
+    call_power: Array
+    """Their power [W]."""
+    call_seconds: Array
+    """Their time from the surfacing on [s]."""
     self_discharge: float
     """Loss of the battery without any load [W]."""
     battery_energy: float
     """Usable at the start [J]; infinite where the vehicle file does not say."""
-
-
-class Sensors(NamedTuple):
-    """Errors of the sensors that control reads."""
-
-    attitude_noise: float
-    """Standard deviation of pitch and roll [rad]."""
-    heading_noise: float
-    """[rad]"""
-    pressure_noise: float
-    """As depth [m]."""
-    pressure_bias: float
-    """As depth [m]."""
-    position_noise: float
-    """Of GPS, each of north and east [m]."""
-    first_fix_time: float
-    """After surfacing [s]."""
-    altimeter_range: float
-    """Beyond it no bottom is heard [m]."""
-    field: Vector
-    """The Earth's magnetic field, north, east, down, in units of its own strength."""
-    hard_iron: Vector
-    """Field of the vehicle's magnets in the body frame, in the same units."""
-    soft_iron: Matrix
-    """Distortion of the Earth's field by the vehicle's iron, by rows; the unit matrix for none."""
-    pump_field: Vector
-    """Field of the running pump."""
-    valve_field: Vector
-    """Field of the open valve."""
-    mass_field: Vector
-    """Field of the running pitch drive."""
-    steering_field: Vector
-    """Field of the running steering motor."""
-    shielding: float
-    """Share of the disturbing fields of motors and valve that shielding takes away, 0 to 1."""
+    charge: Array
+    """Share of the whole energy that is left, rising."""
+    open_voltage: Array
+    """Voltage without load at these shares [V]."""
+    resistance: float
+    """Of battery and wires [ohm]."""
+    whole_energy: float
+    """Energy of the battery with what may not be used [J]."""
+    antenna: Vector
+    """Tip of the antenna in the body frame [m]; not numbers where the vehicle file does not say."""
 
 
 class Loop(NamedTuple):
@@ -118,55 +97,11 @@ class Loop(NamedTuple):
     """Integration steps in a control step while nothing moves."""
     moving_steps: int
     """Integration steps in a control step while an actuator moves or the vehicle answers it."""
+    damping: float
+    """Fastest damping of the vehicle's rotation, over the square of its speed [s/m2]."""
     settle_time: float
     """How long the vehicle answers [s]."""
     column_period: float
     """Between two looks at the ocean around the vehicle [s]."""
     record_every: int
     """Control steps between two rows of output."""
-
-
-STATE_COLUMNS = (
-    "time", "latitude", "longitude", "depth", "roll", "pitch", "heading", "u", "v", "w", "p", "q", "r",
-    "moving_mass", "ballast", "rudder", "roll_mass", "phase", "measured_pitch", "measured_heading", "measured_depth",
-    "density", "temperature", "salinity", "current_north", "current_east", "bottom_depth",
-    "reckoned_latitude", "reckoned_longitude",
-    *(f"energy_{consumer}" for consumer in CONSUMERS),
-)  # fmt: skip
-"""Columns of the record."""
-
-SURFACING_COLUMNS = (
-    "time", "latitude", "longitude", "current_north", "current_east", "true_current_north", "true_current_east",
-    "reckoning_error", "submerged", "dive",
-)  # fmt: skip
-"""Columns of the list of surfacings."""
-
-EVENT_COLUMNS = ("time", "phase", "latitude", "longitude", "depth", "reason")
-"""Columns of the list of events: every change of phase, and why where a dive or the mission ends."""
-
-SOFTWARE_STATE = np.dtype(
-    [
-        ("phase", "f8"), ("since", "f8"), ("submerged_since", "f8"), ("dives", "f8"), ("dives_here", "f8"),
-        ("event", "f8"),
-        ("waypoint", "i8"), ("line_latitude", "f8"), ("line_longitude", "f8"),
-        ("heading_wanted", "f8"), ("steering", "f8"), ("correction", "f8"), ("corrected_at", "f8"),
-        ("depth_before", "f8"), ("path_speed", "f8"), ("vertical_speed", "f8"), ("heading_before", "f8"),
-        ("latitude", "f8"), ("longitude", "f8"),
-        ("reckoned_north", "f8"), ("reckoned_east", "f8"),
-        ("submerged_latitude", "f8"), ("submerged_longitude", "f8"),
-        ("surfaced_at", "f8"), ("under_water", "f8"), ("reckoning_error", "f8"),
-        ("first_fix_at", "f8"), ("first_fix_latitude", "f8"), ("first_fix_longitude", "f8"),
-        ("current_north", "f8"), ("current_east", "f8"),
-    ]
-)  # fmt: skip
-"""What the vehicle's own software remembers from one decision to the next."""
-
-PLANT_STATE = np.dtype(
-    [
-        ("latitude", "f8"), ("longitude", "f8"), ("afloat", "i8"), ("speed", "f8"),
-        ("steering", "f8"), ("pumping", "i8"), ("valve_open", "i8"), ("mass_moving", "i8"), ("steering_moving", "i8"),
-        ("moved_at", "f8"), ("energy", "f8", (len(CONSUMERS),)), ("energy_total", "f8"),
-        ("current_sum_north", "f8"), ("current_sum_east", "f8"), ("current_time", "f8"),
-    ]
-)  # fmt: skip
-"""What the world knows beyond the state of the equations of motion."""

@@ -1,18 +1,25 @@
 """From a vehicle file to the plant that the mission loop drives: actuators, consumers, battery."""
 
-from math import inf, pi, radians
+from collections.abc import Collection
+from math import inf, nan, pi, radians
 from typing import Any
 
 import numpy as np
 
+from stommel.control.dive_cycle import PHASES
 from stommel.design.energy import EnergyModel, energy_model
 from stommel.errors import FileError, Problem
 from stommel.simulation.parameters import (
     ALWAYS,
+    CLIMB,
     CONDITIONS,
     CONSUMERS,
+    DIVE,
+    DRIFTING,
     MOVING,
+    SENSORS,
     SURFACED,
+    UNDERWATER,
     Array,
     Plant,
 )
@@ -26,11 +33,12 @@ _SLOWEST = 1e-6
 """A drive that stalls on a slope still creeps [m/s], so that time goes on."""
 
 
-def plant_of(vehicle: Vehicle) -> Plant:
+def plant_of(vehicle: Vehicle, sampled: Collection[str] = PHASES) -> Plant:
     """Return the plant of a vehicle.
 
     Where the file describes engine, drives, consumers and battery, their own models give flow, speed and energy; where
-    it does not, the actuators move at the speeds that the file states, and energy is not counted.
+    it does not, the actuators move at the speeds that the file states, and energy is not counted. In phases of the dive
+    that are not `sampled`, the sensors that run under water are off.
 
     Raises
     ------
@@ -43,7 +51,9 @@ def plant_of(vehicle: Vehicle) -> Plant:
         **_mass_drive(d, model),
         **_oil(vehicle, model),
         **_steering(vehicle, model),
-        **_consumers(model),
+        **_consumers(model, sampled),
+        **_battery(vehicle, model),
+        antenna=d.antenna.position_m if d.antenna is not None else (nan, nan, nan),
     )
 
 
@@ -136,35 +146,64 @@ def _steering(vehicle: Vehicle, model: EnergyModel | None) -> dict[str, Any]:
     )
 
 
-def _consumers(model: EnergyModel | None) -> dict[str, Any]:
-    power, surfacing = np.zeros((len(CONSUMERS), len(CONDITIONS))), np.zeros(len(CONSUMERS))
-    if model is None:
-        return {
-            "power": power,
-            "surfacing_energy": surfacing,
-            "self_discharge": 0.0,
-            "battery_energy": inf,
-        }
-    for consumer in model.consumers:
+def _consumers(model: EnergyModel | None, sampled: Collection[str]) -> dict[str, Any]:
+    power, calls = np.zeros((len(CONSUMERS), len(CONDITIONS))), []
+    for consumer in model.consumers if model is not None else ():
+        assert model is not None
         efficiency = model.plan.regulator_efficiency if consumer.supply == "regulated" else 1.0
-        _add(consumer, efficiency, power, surfacing)
-    stored = model.stored
+        _add(consumer, efficiency, power)
+        if consumer.seconds_per_surfacing is not None:
+            extra = (consumer.power_w - consumer.standby_w) / efficiency
+            calls.append((CONSUMERS.index(consumer.part), extra, consumer.seconds_per_surfacing))
+    _switch(power[SENSORS], sampled)
     return {
         "power": power,
-        "surfacing_energy": surfacing,
-        "self_discharge": stored.self_discharge_w,
-        "battery_energy": stored.usable_j,
+        "call_consumer": np.array([consumer for consumer, _, _ in calls], dtype=np.int64),
+        "call_power": np.array([watts for _, watts, _ in calls], dtype=float),
+        "call_seconds": np.array([seconds for _, _, seconds in calls], dtype=float),
+        "self_discharge": model.stored.self_discharge_w if model is not None else 0.0,
     }
 
 
-def _add(consumer: Consumer, efficiency: float, power: Array, surfacing: Array) -> None:
-    """Add one consumer: standby always, the rest when it is on."""
+def _add(consumer: Consumer, efficiency: float, power: Array) -> None:
+    """Add one consumer: standby always, the rest when it is on; one that runs for a time at each surfacing is not."""
     i = CONSUMERS.index(consumer.part)
     power[i, ALWAYS] += consumer.standby_w / efficiency
-    extra = consumer.power_w - consumer.standby_w
-    if consumer.seconds_per_surfacing is not None:
-        surfacing[i] += extra * consumer.seconds_per_surfacing / efficiency
-        return
-    columns = {"always": ALWAYS, "surface": SURFACED, "moving": MOVING}
-    column = columns.get(consumer.on, CONDITIONS.index(consumer.on) if consumer.on in CONDITIONS else ALWAYS)
-    power[i, column] += extra * consumer.share_on / efficiency
+    if consumer.seconds_per_surfacing is None:
+        columns = {"always": ALWAYS, "surface": SURFACED, "moving": MOVING}
+        column = columns.get(consumer.on, CONDITIONS.index(consumer.on) if consumer.on in CONDITIONS else ALWAYS)
+        power[i, column] += (consumer.power_w - consumer.standby_w) * consumer.share_on / efficiency
+
+
+def _switch(power: Array, sampled: Collection[str]) -> None:
+    """Let what runs under water run in the sampled phases only."""
+    for phase, column in (("descent", DIVE), ("ascent", CLIMB), ("drift", DRIFTING)):
+        if phase in sampled:
+            power[column] += power[UNDERWATER]
+    power[UNDERWATER] = 0.0
+
+
+_LITHIUM_POLYMER = np.array([3.27, 3.61, 3.69, 3.73, 3.77, 3.79, 3.82, 3.87, 3.92, 4.02, 4.11, 4.20])
+"""Voltage of a cell at rest over its charge [V]: a typical cell, as an assumption."""
+_CHARGE = np.array([0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0])
+
+
+def _battery(vehicle: Vehicle, model: EnergyModel | None) -> dict[str, Any]:
+    """Voltage over charge: the shape is the chemistry's, the mean over the discharge the vehicle file's."""
+    d = vehicle.description
+    if d.battery is None or model is None:
+        stated = d.battery.voltage_v if d.battery is not None else nan
+        open_voltage, whole, usable, resistance = np.full(len(_CHARGE), stated), inf, inf, 0.0
+    else:
+        cell = _LITHIUM_POLYMER if d.battery.chemistry == "lithium polymer" else np.ones(len(_CHARGE))
+        open_voltage = cell * d.battery.voltage_v / np.trapezoid(cell, _CHARGE)
+        usable = model.stored.usable_j
+        whole = usable / (d.battery.usable_fraction or 1.0)
+        resistance = d.battery.internal_resistance_ohm
+    return {
+        "battery_energy": usable,
+        "charge": _CHARGE,
+        "open_voltage": open_voltage,
+        "resistance": resistance,
+        "whole_energy": whole,
+    }

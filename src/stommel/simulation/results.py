@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 import stommel
 from stommel.files import write_whole
 from stommel.simulation import variables
-from stommel.simulation.mission import Flown
-from stommel.simulation.parameters import EVENT_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
+from stommel.simulation.flight import Flown
+from stommel.simulation.memory import EVENT_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
 
 if TYPE_CHECKING:
     import xarray as xr

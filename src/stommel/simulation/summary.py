@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.control.dive_cycle import DESCENT, EVENTS, NOTHING, TARGET_REACHED
-from stommel.simulation.mission import Flown
-from stommel.simulation.parameters import CONSUMERS, EVENT_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
+from stommel.simulation.flight import Flown
+from stommel.simulation.memory import EVENT_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
+from stommel.simulation.parameters import CONSUMERS
 
 if TYPE_CHECKING:
     from pyproj import Geod

@@ -7,7 +7,8 @@ from typing import Any
 import stommel
 from stommel.errors import StommelError
 from stommel.ocean.ocean import Ocean
-from stommel.simulation.mission import Flown, fly_mission, mission_from
+from stommel.simulation.flight import Flown, fly_mission
+from stommel.simulation.loading import mission_from
 from stommel.simulation.studies.kit import RunKit
 from stommel.simulation.studies.study_file import Value
 

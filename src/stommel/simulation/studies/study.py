@@ -12,7 +12,8 @@ from pydantic import ValidationError
 
 import stommel
 from stommel.errors import FileError, Problem
-from stommel.simulation.mission import Mission, load_mission
+from stommel.simulation.loading import load_mission
+from stommel.simulation.mission import Mission
 from stommel.simulation.shipped import UnknownMissionError, mission_path
 from stommel.simulation.studies.errors import StudyError
 from stommel.simulation.studies.keys import key_problems, target_of

@@ -19,6 +19,8 @@ class Battery(Table):
     voltage_v: Positive
     """Mean voltage over the discharge, by which the charge becomes energy."""
     chemistry: str
+    internal_resistance_ohm: NotNegative = 0.0
+    """Of cells, wires and fuse together: by it the voltage falls under load."""
     usable_fraction: PositiveShare | None = None
     """What may be taken of the rated energy: the reserve that is kept and the end of discharge are left out."""
     self_discharge_per_month: Share | None = None

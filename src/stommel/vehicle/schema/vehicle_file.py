@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field
 
 from stommel.vehicle.schema.actuators import Actuators
+from stommel.vehicle.schema.antenna import Antenna
 from stommel.vehicle.schema.budget import Part
 from stommel.vehicle.schema.drives import Drives
 from stommel.vehicle.schema.energy import Battery, Consumer, EnergyPlan
@@ -44,6 +45,7 @@ class VehicleFile(Table):
     engine: Engine | None = None
     hull: Hull | None = None
     bays: tuple[Bay, ...] = ()
+    antenna: Antenna | None = None
     battery: Battery | None = None
     energy: EnergyPlan | None = None
     consumers: tuple[Consumer, ...] = ()

@@ -60,6 +60,8 @@ def test_terminal_fits_80_columns(stommel: Command) -> None:
         (("gyre", "--outside", "climatology", "--climatology", "no.nc"), ["no.nc", "no such file"]),
         (("gyre", "--at", "0,0", "--plot", "map"), ["outside the ocean"]),
         (("east_china_sea", "--plot", "map", "--depth", "3000"), ["its deepest bottom is at 1200 m"]),
+        (("gyre", "--plot", ""), ["--plot", "must name a picture"]),
+        (("gyre", "--set", "=3"), ["--set =3", "NAME=VALUE"]),
         (("gyre", "pool"), ["an analytic ocean stands alone", "pool"]),
         (("gyre", "--bounds", "1,2,3,4"), ["--bounds: gyre is an analytic ocean"]),
         (("gyre", "--name", "temperature=t"), ["--name: gyre is an analytic ocean"]),

@@ -78,6 +78,8 @@ def show(
     when = seconds(time) if time is not None else None
     if not 0.0 <= depth <= _DEEPEST_M:
         raise OceanOptionError(f"--depth {depth:g}: must be between 0 and {_DEEPEST_M:g} m")
+    if plot is not None and not plot.name:
+        raise OceanOptionError(f"--plot {str(plot)!r}: must name a picture, as build/sea")
     choice = {
         "names": _pairs(names or [], "--name"),
         "parameters": _pairs(parameter or [], "--set"),
@@ -155,7 +157,7 @@ def _looks_like_a_file(name: str) -> bool:
 
 
 def _pairs(texts: list[str], option: str) -> dict[str, str]:
-    wrong = [text for text in texts if "=" not in text]
+    wrong = [text for text in texts if not text.partition("=")[0].strip() or "=" not in text]
     if wrong:
         raise OceanOptionError(f"{option} {wrong[0]}: must be like NAME=VALUE")
     return {key.strip(): value.strip() for key, value in (text.split("=", 1) for text in texts)}

@@ -10,8 +10,8 @@ PHASES = ("surface", "descent", "inflection", "ascent", "recovery", "drift")
 
 (
     NOTHING, ABORT_DEPTH, ABORT_TIME, ABORT_BATTERY, ABORT_LEAK, MISSION_COMPLETE, BOTTOM_AHEAD, TARGET_REACHED,
-    ABORT_PRESSURE,
-) = range(9)  # fmt: skip
+    ABORT_PRESSURE, OUTSIDE_DATA,
+) = range(10)  # fmt: skip
 EVENTS = (
     "nothing",
     "abort: too deep",
@@ -22,6 +22,7 @@ EVENTS = (
     "bottom ahead",
     "target depth reached",
     "abort: pressure inside the hull",
+    "outside the ocean's data",
 )
 MISSION_ENDS = (ABORT_BATTERY, ABORT_LEAK, ABORT_PRESSURE)
 """Alarms after which the vehicle comes up and stays; too deep and too long only end the dive."""

@@ -71,7 +71,39 @@ def mission_from(
 def _ocean(plan: MissionFile, folder: Path) -> Ocean:
     choice = plan.ocean
     if choice.name is not None:
-        return Ocean.analytic(choice.name, **choice.parameters)
+        return Ocean.analytic(choice.name, **choice.parameters).with_outside(
+            choice.outside,
+            choice.outside_time,
+            climatology=choice.climatology,
+            blend_km=choice.blend_km,
+            blend_h=choice.blend_h,
+            folder=folder,
+        )
     assert choice.file is not None
-    beside = folder / choice.file
-    return Ocean.open(beside if beside.is_file() else Path(choice.file), outside=choice.outside)
+    return Ocean.open(
+        choice.file,
+        folder=folder,
+        names=choice.names,
+        outside=choice.outside,
+        outside_time=choice.outside_time,
+        climatology=choice.climatology,
+        blend_km=choice.blend_km,
+        blend_h=choice.blend_h,
+        bounds=choice.bounds_deg,
+        between=_between(plan),
+        at_rest=choice.at_rest,
+        parameters=choice.parameters,
+    )
+
+
+def _between(plan: MissionFile) -> tuple[float, float] | None:
+    """Times of the file that the mission needs [s since 1970-01-01 UTC]; None where it needs all of them.
+
+    A profile has no times, and the mean of a file, where it is the climatology, is over all of them.
+    """
+    choice = plan.ocean
+    profile = isinstance(choice.file, str) and choice.file.endswith(".csv")
+    of_its_own = "climatology" in (choice.outside, choice.outside_time) and choice.climatology is None
+    if profile or of_its_own:
+        return None
+    return plan.start_seconds, plan.end_seconds

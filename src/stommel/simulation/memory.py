@@ -77,7 +77,7 @@ SOFTWARE_STATE = np.dtype(
 PLANT_STATE = np.dtype(
     [
         ("latitude", "f8"), ("longitude", "f8"), ("metres_north", "f8"), ("metres_east", "f8"),
-        ("afloat", "i8"), ("speed", "f8"),
+        ("afloat", "i8"), ("outside", "i8"), ("speed", "f8"),
         ("steering", "f8"), ("pumping", "i8"), ("valve_open", "i8"), ("mass_moving", "i8"), ("steering_moving", "i8"),
         ("moved_at", "f8"), ("energy", "f8", (len(CONSUMERS),)), ("energy_total", "f8"),
         ("voltage", "f8"), ("current", "f8"),

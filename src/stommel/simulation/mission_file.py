@@ -67,6 +67,11 @@ class MissionFile(Table):
         """Start [s since 1970-01-01 UTC]."""
         return self.start_time.timestamp()
 
+    @property
+    def end_seconds(self) -> float:
+        """Latest end [s since 1970-01-01 UTC]."""
+        return self.start_seconds + self.duration_days * 86400.0
+
     @model_validator(mode="after")
     def _is_consistent(self) -> Self:
         if self.start_time.tzinfo is None:

@@ -5,7 +5,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stommel.control.dive_cycle import MISSION_COMPLETE, RECOVERY, SURFACE, DivePlan, Readings
+from stommel.control.dive_cycle import (
+    INFLECTION,
+    MISSION_COMPLETE,
+    NOTHING,
+    OUTSIDE_DATA,
+    RECOVERY,
+    SURFACE,
+    DivePlan,
+    Readings,
+)
 from stommel.control.flight_table import FlightTable, look_up
 from stommel.control.guidance import metres_per_radian
 from stommel.dynamics.compilation import compiled, inlined
@@ -113,7 +122,9 @@ def _receive(sea, equipment, x, software, world, noise, t, step):  # type: ignor
 def _phase_changed(log, software, world, t, depth):  # type: ignore[no-untyped-def]  # compiled only
     """Write the event down; open and close the accounts of a dive."""
     world.moved_at = t
-    write_event(log, t, software, world, depth)
+    # the software remembers the last reason; it is that of this change only where a dive or the mission ends
+    ends = software.phase in (INFLECTION, RECOVERY)
+    write_event(log, t, software, world, depth, software.event if ends else float(NOTHING))
     if software.phase == SURFACE:
         surface(software, t, world.latitude, world.longitude)
     elif software.phase != RECOVERY and software.submerged_since == t:
@@ -156,6 +167,9 @@ def fly(
             status = fill_column(sea.grid, sea.density, loop.start + t, world.latitude, world.longitude, cell, column)
             if status > HELD:
                 return ASHORE if status == LAND else OUT_OF_OCEAN
+            if status == HELD and not world.outside:
+                write_event(log, t, software, world, x[2], float(OUTSIDE_DATA))
+            world.outside = int(status == HELD)
         age = loop.start + t - column.place[TIME]
         water = water_at(column, x[2], age)
         # sense

@@ -8,34 +8,43 @@ import numpy as np
 from numpy.typing import NDArray
 
 import stommel
-from stommel.files import write_whole
+from stommel.files import whole_file
 from stommel.simulation import variables
+from stommel.simulation.ctd import samples_of
 from stommel.simulation.flight import Flown
-from stommel.simulation.memory import EVENT_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
+from stommel.simulation.memory import EVENT_COLUMNS, SAMPLE_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
 
+_SAMPLED = "sample_time sample_latitude sample_longitude"
+
 _UNBOUNDED = 1e4
 """Deeper than this is an ocean without a bottom [m]."""
-_EXACT = ("time", "latitude", "longitude", "reckoned_latitude", "reckoned_longitude")
+_EXACT = (
+    "time", "latitude", "longitude", "reckoned_latitude", "reckoned_longitude", "sample_latitude", "sample_longitude",
+)  # fmt: skip
 """Stored as doubles, with all surfacings, events and energies; a float's seven digits are enough for the rest."""
 
 
 def dataset_of(flown: Flown) -> "xr.Dataset":
     """Describe a flown mission as a trajectory after CF 1.10.
 
-    Dimensions are `time`, `surfacing` (each stay at the surface that ended with a dive) and `event` (each change of
-    phase). Global attributes hold what the mission can be flown again from: its file and the vehicle's numbers as JSON,
-    the seed and the version.
+    Dimensions are `time`, `sample` (of the CTD), `surfacing` (each stay at the surface that ended with a dive) and
+    `event` (each change of phase). Global attributes hold what the mission can be flown again from: its file and the
+    vehicle's numbers as JSON, the seed and the version.
     """
     import xarray as xr  # noqa: PLC0415 - start-up counts
 
     start = flown.mission.plan.start_seconds
     return xr.Dataset(
-        _record(flown.record) | _surfacings(flown.surfacings, start) | _events(flown.events, start) | _trajectory(),
+        _record(flown.record)
+        | _samples(flown)
+        | _surfacings(flown.surfacings, start)
+        | _events(flown.events, start)
+        | _trajectory(),
         coords={"time": ("time", _times(flown.record[:, 0], start), variables.TIME)},
         attrs=_provenance(flown),
     )
@@ -52,9 +61,10 @@ def _record(record: Array) -> dict[str, Any]:
         found[name] = ("time", np.degrees(record[:, STATE_COLUMNS.index(name)]), attributes)
     for name, (column, factor, attributes) in variables.RECORD.items():
         values = record[:, STATE_COLUMNS.index(column)]
-        found[name] = ("time", values * factor if factor else np.degrees(values), dict(attributes))
+        scaled = values * factor if factor else np.degrees(values)
+        found[name] = ("time", scaled if name in _EXACT else scaled.astype(np.float32), dict(attributes))
     for name in ("heading", "measured_heading"):
-        found[name] = ("time", np.mod(found[name][1], 360.0), found[name][2])
+        found[name] = ("time", np.mod(found[name][1], np.float32(360.0)), found[name][2])
     bottom = found["bottom_depth"][1]
     bottom[bottom > _UNBOUNDED] = np.nan
     for name, attributes in variables.ENERGY.items():
@@ -63,6 +73,19 @@ def _record(record: Array) -> dict[str, Any]:
     for name, (_, _, attributes) in found.items():
         if name not in ("latitude", "longitude", "depth"):
             attributes["coordinates"] = "time depth latitude longitude"
+    return found
+
+
+def _samples(flown: Flown) -> dict[str, Any]:
+    rows = flown.samples
+    found = _located("sample", rows, SAMPLE_COLUMNS, flown.mission.plan.start_seconds)
+    for name in variables.PLACES:
+        found[f"sample_{name}"][2]["long_name"] = f"{name} that the vehicle believes"
+    measured = samples_of(flown)._asdict()
+    for name, attributes in variables.SAMPLES.items():
+        found[f"sample_{name}"] = ("sample", measured[name], dict(attributes) | {"coordinates": _SAMPLED})
+    phase = rows[:, SAMPLE_COLUMNS.index("phase")].astype(np.int8)
+    found["sample_phase"] = ("sample", phase, _flags(variables.PHASE))
     return found
 
 
@@ -132,17 +155,23 @@ def write_netcdf(dataset: "xr.Dataset", path: str | Path) -> None:
     OutputError
         The file cannot be written; what stood there before still does.
     """
-    write_whole(Path(path), netcdf_bytes(dataset))
+    with whole_file(Path(path)) as temporary:
+        _to_netcdf(dataset, temporary)
 
 
 def netcdf_bytes(dataset: "xr.Dataset") -> bytes:
-    """Return the NetCDF file of a mission's Dataset: 64-bit classic, times as seconds since 1970-01-01 UTC.
+    """Return the NetCDF file of a mission's Dataset, as `write_netcdf` writes it."""
+    return bytes(_to_netcdf(dataset, None))
+
+
+def _to_netcdf(dataset: "xr.Dataset", path: Path | None) -> memoryview:
+    """NetCDF in the 64-bit classic form, times as seconds since 1970-01-01 UTC.
 
     NetCDF 4 would be smaller, but the HDF5 below it stamps the root group with the time of writing: no two files alike.
     """
     encoding = {str(name): _encoding(dataset, str(name)) for name in dataset.variables}
-    content = dataset.to_netcdf(engine="scipy", format="NETCDF3_64BIT", encoding=encoding)
-    return bytes(content)
+    written: Any = dataset.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT", encoding=encoding)
+    return memoryview(b"" if written is None else written)
 
 
 def _encoding(dataset: "xr.Dataset", name: str) -> dict[str, Any]:
@@ -153,6 +182,6 @@ def _encoding(dataset: "xr.Dataset", name: str) -> dict[str, Any]:
     if np.issubdtype(variable.dtype, np.datetime64):
         return packing | {"units": "seconds since 1970-01-01T00:00:00Z", "calendar": "standard", "dtype": "f8"}
     if np.issubdtype(variable.dtype, np.floating):
-        exact = variable.dims[0] != "time" or name in _EXACT or name.startswith("energy_")
+        exact = variable.dims[0] not in ("time", "sample") or name in _EXACT or name.startswith("energy_")
         return packing | {"dtype": "f8" if exact else "f4", "_FillValue": np.nan if exact else np.float32(np.nan)}
     return packing

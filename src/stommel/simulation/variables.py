@@ -84,6 +84,13 @@ RECORD: dict[str, tuple[str, float, Attributes]] = {
         1.0,
         {"standard_name": "sea_floor_depth_below_sea_surface", "long_name": "depth of the bottom", "units": "m"},
     ),
+    "battery_voltage": ("voltage", 1.0, {"long_name": "voltage of the battery, measured", "units": "V"}),
+    "battery_current": ("current", 1.0, {"long_name": "current out of the battery, measured", "units": "A"}),
+    "internal_pressure": (
+        "internal_pressure",
+        1.0,
+        {"long_name": "absolute pressure of the air in the hull, measured", "units": "Pa"},
+    ),
     "reckoned_latitude": (
         "reckoned_latitude",
         0.0,
@@ -105,6 +112,30 @@ ENERGY: dict[str, Attributes] = {
     for consumer in CONSUMERS
 }
 
+SAMPLES: dict[str, Attributes] = {
+    "pressure": {
+        "standard_name": "sea_water_pressure_due_to_sea_water",
+        "long_name": "sea pressure by the CTD",
+        "units": "dbar",
+    },
+    "temperature": {
+        "standard_name": "sea_water_temperature",
+        "long_name": "temperature in situ by the CTD",
+        "units": "degree_C",
+    },
+    "conductivity": {
+        "standard_name": "sea_water_electrical_conductivity",
+        "long_name": "conductivity by the CTD, with the lag of its cell",
+        "units": "S m-1",
+    },
+    "practical_salinity": {
+        "standard_name": "sea_water_practical_salinity",
+        "long_name": "practical salinity by the CTD, lags not corrected",
+        "units": "1",
+    },
+}
+"""Measured by the CTD, one of each a sample."""
+
 PHASE: Attributes = {
     "long_name": "phase of the dive cycle",
     "flag_values": list(range(len(PHASES))),
@@ -114,7 +145,7 @@ PHASE: Attributes = {
 REASON: Attributes = {
     "long_name": "why the dive or the mission ended",
     "flag_values": list(range(len(EVENTS))),
-    "flag_meanings": " ".join(event.replace(":", "").replace(" ", "_") for event in EVENTS),
+    "flag_meanings": " ".join(event.replace(":", "").replace("'", "").replace(" ", "_") for event in EVENTS),
 }
 
 SURFACINGS: dict[str, tuple[str, Attributes]] = {

@@ -106,22 +106,43 @@ class Leak(Table):
     """Zero for a tight hull."""
 
 
+Policy = Literal["error", "hold", "climatology"]
+
+
 class OceanChoice(Table):
     """The water to fly in."""
 
     name: str | None = None
     """An analytic ocean; see `stommel ocean`."""
-    file: str | None = None
-    """A CF NetCDF file instead."""
-    outside: Literal["error", "hold"] = "error"
-    """Beyond the data in space or time: stop, or hold the nearest values."""
+    file: str | tuple[str, ...] | None = None
+    """A CF NetCDF file instead, several, or a pattern; or a profile (.csv) that stands everywhere."""
+    outside: Policy = "error"
+    """Beyond the data in space or time: stop, hold the nearest values, or go over to `climatology`."""
+    outside_time: Policy | None = None
+    """The same for times alone, if different."""
+    climatology: str | None = None
+    """A second ocean, by name or file; without one the mean of the file is the climatology."""
+    blend_km: NotNegative = 50.0
+    """Way beyond the edge of the data on which its last values give way to the climatology."""
+    blend_h: NotNegative = 24.0
+    """Time beyond the data in which they do."""
+    bounds_deg: tuple[Finite, Finite, Finite, Finite] | None = None
+    """South, north, west and east of the region to read; all of the file if left out."""
+    names: dict[str, str] = Field(default_factory=dict)
+    """Names of the file's variables where their standard names do not tell."""
+    at_rest: bool = False
+    """Read no currents."""
     parameters: dict[str, Finite] = Field(default_factory=dict)
-    """Numbers of an analytic ocean."""
+    """Numbers of an analytic ocean or of a profile's."""
 
     @model_validator(mode="after")
     def _one_ocean(self) -> Self:
         if (self.name is None) == (self.file is None):
             raise ValueError("ocean: give either name or file")
+        for_files = {"bounds_deg": self.bounds_deg, "names": self.names, "at_rest": self.at_rest}
+        for key, value in for_files.items():
+            if self.name is not None and value:
+                raise ValueError(f"ocean.{key}: is for an ocean from a file; ocean.name = {self.name!r} is analytic")
         return self
 
 

@@ -1,6 +1,5 @@
 """Rows of the log: record, samples of the CTD, events, surfacings (compiled)."""
 
-from stommel.control.dive_cycle import INFLECTION, NOTHING, RECOVERY
 from stommel.dynamics.compilation import inlined
 from stommel.dynamics.equations import state_from_array
 from stommel.dynamics.inertia import velocities
@@ -67,14 +66,13 @@ def write_sample(log, t, x, water, software, world, column):  # type: ignore[no-
 
 
 @inlined
-def write_event(log, t, software, world, depth):  # type: ignore[no-untyped-def]  # compiled only
-    """Write a change of phase down (`EVENT_COLUMNS`)."""
+def write_event(log, t, software, world, depth, reason):  # type: ignore[no-untyped-def]  # compiled only
+    """Write down what happened, and why (`EVENT_COLUMNS`)."""
     if log.counts[EVENTS] < len(log.events):
         row = log.events[log.counts[EVENTS]]
         log.counts[EVENTS] += 1
         row[0], row[1], row[2], row[3], row[4] = t, software.phase, world.latitude, world.longitude, depth
-        # the software remembers the last reason; it is that of this change only where a dive or the mission ends
-        row[5] = software.event if software.phase in (INFLECTION, RECOVERY) else float(NOTHING)
+        row[5] = reason
 
 
 @inlined

@@ -54,7 +54,9 @@ def _numbers(table: Mapping[str, Any], prefix: str = "") -> list[tuple[str, floa
 
 
 def _fly(kit: RunKit, document: dict[str, Any]) -> Flown:
-    choice = json.dumps([document["ocean"], str(kit.folder)], sort_keys=True)
+    # of a file only the time of the mission is read
+    time = [document["start_time"], document["duration_days"]] if document["ocean"]["file"] is not None else []
+    choice = json.dumps([document["ocean"], str(kit.folder), time], sort_keys=True, default=str)
     known = _oceans.get(choice)
     mission = mission_from(document, kit.origin, kit.folder, kit.vehicle, known)
     if known is None:

@@ -15,8 +15,12 @@ from stommel.simulation.studies.errors import StudyError
 from stommel.simulation.studies.kit import RunKit, Target, put
 from stommel.simulation.studies.sampling import quantiles, sweep_values
 from stommel.simulation.studies.study_file import Parameter, Value
+from stommel.simulation.world_tables import OceanChoice
 from stommel.vehicle import stated_numbers
 from stommel.vehicle.messages import sentences
+
+OCEAN_KEYS = tuple(key for key in OceanChoice.model_fields if key != "parameters")
+"""Keys of the table [ocean] beside the numbers of an analytic ocean."""
 
 
 def target_of(key: str) -> Target:
@@ -28,7 +32,7 @@ def target_of(key: str) -> Target:
         return tuple(rest.split("."))
     if space == "sensors":
         return "sensors", *rest.split(".")
-    return ("ocean", rest) if rest in ("name", "file", "outside") else ("ocean", "parameters", rest)
+    return ("ocean", rest) if rest in OCEAN_KEYS else ("ocean", "parameters", rest)
 
 
 def key_problems(parameter: Parameter, kit: RunKit) -> Iterator[str]:
@@ -70,7 +74,7 @@ def _known(target: Target, kit: RunKit) -> list[Any] | None:
         name = kit.document["ocean"]["name"]
         return list(ANALYTIC[name].model_fields) if name is not None else []
     if target[0] == "ocean":
-        return ["name", "file", "outside"]
+        return list(OCEAN_KEYS)
     return [path for path in _leaves(kit.document) if path[0] != "sensors" or target[0] == "sensors"]
 
 

@@ -12,6 +12,8 @@ from pydantic import ValidationError
 
 import stommel
 from stommel.errors import FileError, Problem
+from stommel.ocean.analytic import ANALYTIC
+from stommel.ocean.sources import paths_of
 from stommel.simulation.loading import load_mission
 from stommel.simulation.mission import Mission
 from stommel.simulation.shipped import UnknownMissionError, mission_path
@@ -152,12 +154,14 @@ def _digest(value: Any) -> str:
 
 
 def _file_digest(kit: RunKit) -> str:
-    name = kit.document["ocean"]["file"]
-    if name is None:
-        return ""
-    beside = kit.folder / name
-    try:
-        with (beside if beside.is_file() else Path(name)).open("rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
-    except OSError as error:
-        raise StudyError(f"{name}: cannot be read: {error.strerror}") from error
+    """Content of the ocean's files and of its climatology's; empty where all is analytic."""
+    choice, digest = kit.document["ocean"], hashlib.sha256()
+    climatology = choice["climatology"] if choice["climatology"] not in ANALYTIC else None
+    sources = [source for source in (choice["file"], climatology) if source is not None]
+    for path in (path for source in sources for path in paths_of(source, kit.folder)):
+        try:
+            with path.open("rb") as file:
+                digest.update(hashlib.file_digest(file, "sha256").digest())
+        except OSError as error:
+            raise StudyError(f"{path}: cannot be read: {error.strerror}") from error
+    return digest.hexdigest() if sources else ""

@@ -12,7 +12,7 @@ from stommel.dynamics.attitude import quaternion_from_euler
 from stommel.dynamics.compilation import compiled, inlined
 from stommel.dynamics.elementary import cos, sin
 from stommel.dynamics.equations import rates
-from stommel.dynamics.inertia import inertia, momenta, solve
+from stommel.dynamics.inertia import factors_of, inertia, momenta, solve
 from stommel.dynamics.state import Actuation, State, Water
 from stommel.dynamics.vectors import down_in_body, scale
 
@@ -34,7 +34,9 @@ def _state_rates(vehicle, s, settings, water, out):  # type: ignore[no-untyped-d
     momentum = momenta(vehicle, (s[U_], s[V_], s[W_]), omega, Q, settings[0], settings[1], actuation, water)
     x = State((zero, zero, zero), Q, momentum.p, momentum.h, settings[0], zero, settings[1])
     x_dot = rates(vehicle, x, actuation, water, False)
-    v_dot, omega_dot = solve(inertia(vehicle, settings[0], settings[3], settings[1], False), x_dot.p, x_dot.h)
+    v_dot, omega_dot = solve(
+        factors_of(inertia(vehicle, settings[0], settings[3], settings[1], False)), x_dot.p, x_dot.h
+    )
     turn = (q * sin(phi) + r * cos(phi)) / cos(theta)
     out[U_], out[V_], out[W_] = v_dot
     out[P_], out[Q_], out[R_] = omega_dot

@@ -9,10 +9,12 @@ import numpy as np
 from stommel.dynamics.compilation import compiled, inlined
 from stommel.dynamics.hydrodynamics import viscous_forces
 from stommel.dynamics.inertia import (
+    Factors,
+    factors_at,
     moving_mass_position,
     oil_moment,
     particle_momentum,
-    velocities,
+    velocities_by,
 )
 from stommel.dynamics.state import Actuation, State, Water
 from stommel.dynamics.vectors import (
@@ -70,9 +72,15 @@ def rates(vehicle: np.record, x: State, actuation: Actuation, water: Water, free
     free
         True: the moving mass slides under the force `u_px`; false: it is locked or driven at the speed `r_px_dot`.
     """
+    return rates_by(factors_at(vehicle, x.r_px, x.V_b, actuation, free), vehicle, x, actuation, water, free)
+
+
+@inlined
+def rates_by(factors: Factors, vehicle: np.record, x: State, actuation: Actuation, water: Water, free: bool) -> State:
+    """Rates of the state with the factors of its inertia at hand: while nothing moves in the hull, they stay."""
     g, m_p, V_b = vehicle.g, vehicle.m_p, x.V_b
     zeta = down_in_body(x.Q)
-    eta = velocities(vehicle, x, actuation, water, free)
+    eta = velocities_by(factors, vehicle, x, actuation, water, free)
     v, omega = eta.v, eta.omega
     r_p = moving_mass_position(vehicle, x.r_px, actuation.mu)
     p_p = particle_momentum(vehicle, x.r_px, actuation, eta)

@@ -30,7 +30,6 @@ from stommel.dynamics.vectors import (
     scale,
     subtract,
     symmetric_inverse,
-    symmetric_solve,
     symmetric_times,
     to_body,
     transpose_times,
@@ -43,6 +42,17 @@ class Inertia(NamedTuple):
     M: Symmetric
     C: Matrix
     J: Symmetric
+
+
+class Factors(NamedTuple):
+    """The inertia matrix ready to be solved: what depends on the places of the masses alone."""
+
+    C: Matrix
+    M_inverse: Symmetric
+    D: tuple[Vector, Vector, Vector]
+    """Rows of C M^-1."""
+    schur_inverse: Symmetric
+    """(J - C M^-1 C')^-1."""
 
 
 class Momenta(NamedTuple):
@@ -149,7 +159,15 @@ def actuator_momenta(vehicle: np.record, r_px: float, actuation: Actuation, axia
 
 @inlined
 def velocities(vehicle: np.record, x: State, actuation: Actuation, water: Water, free: bool) -> Velocities:
-    """Solve (p, h, p_px) = M(r_p) eta for eta = (v, omega, r_px').
+    """Solve (p, h, p_px) = M(r_p) eta for eta = (v, omega, r_px')."""
+    return velocities_by(factors_at(vehicle, x.r_px, x.V_b, actuation, free), vehicle, x, actuation, water, free)
+
+
+@inlined
+def velocities_by(
+    factors: Factors, vehicle: np.record, x: State, actuation: Actuation, water: Water, free: bool
+) -> Velocities:
+    """Solve (p, h, p_px) = M(r_p) eta with the inertia's factors at hand.
 
     The rigid body's momentum follows the absolute velocity, the water's the relative one, so that the added inertia
     times the current moves to the left-hand side.
@@ -160,7 +178,7 @@ def velocities(vehicle: np.record, x: State, actuation: Actuation, water: Water,
     p = add(subtract(x.p, inside.p), symmetric_times(vehicle.M_f, U_B))
     h = add(subtract(x.h, inside.h), matrix_times(vehicle.C_f, U_B))
 
-    v, omega = solve(inertia(vehicle, x.r_px, actuation.mu, x.V_b, free), p, h)
+    v, omega = solve(factors, p, h)
 
     r_px_dot = actuation.r_px_dot + 0.0 * v[0]
     if free:
@@ -170,8 +188,14 @@ def velocities(vehicle: np.record, x: State, actuation: Actuation, water: Water,
 
 
 @inlined
-def solve(blocks: Inertia, p: Vector, h: Vector) -> tuple[Vector, Vector]:
-    """Solve M v + C' omega = p and C v + J omega = h for (v, omega), by the rows c_i of C and d_i of C M^-1."""
+def factors_at(vehicle: np.record, r_px: float, V_b: float, actuation: Actuation, free: bool) -> Factors:
+    """Factors of the inertia for the places of moving mass and oil."""
+    return factors_of(inertia(vehicle, r_px, actuation.mu, V_b, free))
+
+
+@inlined
+def factors_of(blocks: Inertia) -> Factors:
+    """Inverse of M and of its Schur complement, by the rows c_i of C and d_i of C M^-1."""
     M, C, J = blocks
     M_inverse = symmetric_inverse(M)
     c_1, c_2, c_3 = (C[0], C[1], C[2]), (C[3], C[4], C[5]), (C[6], C[7], C[8])
@@ -188,8 +212,14 @@ def solve(blocks: Inertia, p: Vector, h: Vector) -> tuple[Vector, Vector]:
         J[4] - dot(c_1, d_3),
         J[5] - dot(c_2, d_3),
     )
-    h_of_p = (dot(d_1, p), dot(d_2, p), dot(d_3, p))
-    omega = symmetric_solve(schur_complement, subtract(h, h_of_p))
+    return Factors(C, M_inverse, (d_1, d_2, d_3), symmetric_inverse(schur_complement))
+
+
+@inlined
+def solve(factors: Factors, p: Vector, h: Vector) -> tuple[Vector, Vector]:
+    """Solve M v + C' omega = p and C v + J omega = h for (v, omega)."""
+    C, M_inverse, (d_1, d_2, d_3), schur_inverse = factors
+    omega = symmetric_times(schur_inverse, subtract(h, (dot(d_1, p), dot(d_2, p), dot(d_3, p))))
     v = symmetric_times(M_inverse, subtract(p, transpose_times(C, omega)))
     return v, omega
 

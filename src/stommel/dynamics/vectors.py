@@ -93,16 +93,6 @@ def symmetric_inverse(S: Symmetric) -> Symmetric:
 
 
 @inlined
-def symmetric_solve(S: Symmetric, b: Vector) -> Vector:
-    """Solution x of S x = b for a symmetric positive definite matrix; the division runs beside the products."""
-    xx = S[1] * S[2] - S[5] * S[5]
-    xy = S[4] * S[5] - S[3] * S[2]
-    xz = S[3] * S[5] - S[1] * S[4]
-    adjugate = (xx, S[0] * S[2] - S[4] * S[4], S[0] * S[1] - S[3] * S[3], xy, xz, S[3] * S[4] - S[0] * S[5])
-    return scale(1.0 / (S[0] * xx + S[3] * xy + S[4] * xz), symmetric_times(adjugate, b))
-
-
-@inlined
 def rotation(Q: Quaternion) -> Matrix:
     """R_IB of a unit quaternion."""
     w, x, y, z = Q

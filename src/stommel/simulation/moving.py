@@ -10,8 +10,8 @@ from stommel.control.dive_cycle import RECOVERY, SURFACE
 from stommel.control.laws import wrapped
 from stommel.dynamics.acceleration import state_from_velocities
 from stommel.dynamics.compilation import inlined
-from stommel.dynamics.equations import net_weight, rates, state_from_array, state_into_array, static_moment
-from stommel.dynamics.inertia import moving_mass_position
+from stommel.dynamics.equations import net_weight, rates_by, state_from_array, state_into_array, static_moment
+from stommel.dynamics.inertia import factors_at, moving_mass_position
 from stommel.dynamics.state import STATE_SIZE, Actuation
 from stommel.ocean.column import water_at
 from stommel.ocean.grid import BOTTOM, TIME
@@ -34,14 +34,18 @@ STEEPEST_AFLOAT = math.radians(60.0)
 @inlined
 def _step(vehicle, x, k, trial, actuation, column, age, h):  # type: ignore[no-untyped-def]  # compiled only
     """One classical Runge-Kutta step of the flat state `x`, in place."""
+    moves = actuation.r_px_dot != 0.0 or actuation.u_b != 0.0
+    factors = factors_at(vehicle, x[13], x[15], actuation, False)
     water = water_at(column, x[2], age)
-    state_into_array(rates(vehicle, state_from_array(x), actuation, water, False), k[0])
+    state_into_array(rates_by(factors, vehicle, state_from_array(x), actuation, water, False), k[0])
     for stage in range(1, 4):
         fraction = h if stage == 3 else 0.5 * h
         for j in range(STATE_SIZE):
             trial[j] = x[j] + fraction * k[stage - 1, j]
+        if moves:
+            factors = factors_at(vehicle, trial[13], trial[15], actuation, False)
         water = water_at(column, trial[2], age + fraction)
-        state_into_array(rates(vehicle, state_from_array(trial), actuation, water, False), k[stage])
+        state_into_array(rates_by(factors, vehicle, state_from_array(trial), actuation, water, False), k[stage])
     for j in range(STATE_SIZE):
         x[j] += h / 6.0 * (k[0, j] + 2.0 * (k[1, j] + k[2, j]) + k[3, j])
 

@@ -36,13 +36,11 @@ def _step(vehicle, x, k, trial, actuation, column, age, h):  # type: ignore[no-u
     """One classical Runge-Kutta step of the flat state `x`, in place."""
     moves = actuation.r_px_dot != 0.0 or actuation.u_b != 0.0
     factors = factors_at(vehicle, x[13], x[15], actuation, False)
-    water = water_at(column, x[2], age)
-    state_into_array(rates_by(factors, vehicle, state_from_array(x), actuation, water, False), k[0])
-    for stage in range(1, 4):
-        fraction = h if stage == 3 else 0.5 * h
+    for stage in range(4):
+        fraction = 0.0 if stage == 0 else h if stage == 3 else 0.5 * h
         for j in range(STATE_SIZE):
-            trial[j] = x[j] + fraction * k[stage - 1, j]
-        if moves:
+            trial[j] = x[j] + fraction * k[stage - 1, j] if stage > 0 else x[j]
+        if moves and stage > 0:
             factors = factors_at(vehicle, trial[13], trial[15], actuation, False)
         water = water_at(column, trial[2], age + fraction)
         state_into_array(rates_by(factors, vehicle, state_from_array(trial), actuation, water, False), k[stage])

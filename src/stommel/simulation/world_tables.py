@@ -155,7 +155,7 @@ class Integration(Table):
     """Integration steps in a control step while nothing moves; fast flight takes more by itself."""
     moving_steps: Annotated[int, Field(strict=True, ge=1, le=1000)] = 2
     """The same while an actuator moves or the vehicle answers it."""
-    settle_s: NotNegative = 30.0
+    settle_s: NotNegative = 10.0
     """How long it answers."""
     ocean_s: Positive = 600.0
     """Between two looks at the ocean around the vehicle."""

@@ -8,12 +8,20 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stommel.cli import INTERRUPTED
 from stommel.cli.options import JsonOption
 from stommel.cli.output import number, show_json, show_table, show_values
 
 if TYPE_CHECKING:
+    from rich.progress import ProgressColumn
+
     from stommel.simulation.flight import Flown
     from stommel.simulation.mission import Mission
+
+_FIRST_DAYS = 0.02
+"""Flown once before the time is taken, so that compiling and loading are not in it."""
+_SHORT_WAIT = 6.0
+"""Loading the kept machine code takes less; whoever waits longer sees it being compiled [s]."""
 
 
 def simulate(
@@ -28,6 +36,9 @@ def simulate(
     seed: Annotated[
         int | None, typer.Option("--seed", min=0, help="Of every random draw; the mission file's if left out.")
     ] = None,
+    speed_up: Annotated[
+        bool, typer.Option("--speed-up", help="Also tell how many times faster than real time it was flown.")
+    ] = False,
     list_missions: Annotated[bool, typer.Option("--list", help="List the shipped missions and stop.")] = False,
     as_json: JsonOption = False,
 ) -> None:
@@ -40,7 +51,6 @@ def simulate(
         return
     if mission is None:
         raise typer.BadParameter("give a mission file or a shipped mission; --list shows these", param_hint="MISSION")
-    from stommel.simulation.flight import fly_mission
     from stommel.simulation.loading import load_mission
     from stommel.simulation.shipped import mission_path
     from stommel.simulation.summary import summary
@@ -48,10 +58,13 @@ def simulate(
     loaded = load_mission(mission_path(mission))
     if seed is not None:
         loaded = _with_seed(loaded, seed)
-    with _progress(loaded) as progress:
-        flown = fly_mission(loaded, progress=progress)
+    with _interruptible("before the end of the mission; nothing was written"):
+        flown, seconds = _fly(loaded, speed_up)
     row = summary(flown)
-    written = _write(flown, output, plots)
+    row["flight_s"] = seconds
+    row["speed_up"] = None if seconds is None else row["days"] * 86400.0 / seconds
+    with _interruptible("while writing; the files that are there are whole"):
+        written = _write(flown, output, plots)
     if as_json:
         show_json(row | {"written": [str(path) for path in written]})
         return
@@ -76,6 +89,31 @@ def _with_seed(mission: "Mission", seed: int) -> "Mission":
 
 
 @contextmanager
+def _interruptible(when: str) -> Iterator[None]:
+    """Answer Ctrl-C with one line and the exit status of an interrupted command."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo(f"interrupted {when}", err=True)
+        raise typer.Exit(INTERRUPTED) from None
+
+
+def _fly(mission: "Mission", timed: bool) -> tuple["Flown", float | None]:
+    """Fly the mission; if `timed` also the seconds that it took, without compiling and loading."""
+    from time import perf_counter
+
+    from stommel.simulation.flight import fly_mission
+
+    with _progress(mission) as progress:
+        if timed:
+            first = min(_FIRST_DAYS, mission.plan.duration_days)
+            fly_mission(replace(mission, plan=mission.plan.model_copy(update={"duration_days": first})))
+        began = perf_counter()
+        flown = fly_mission(mission, progress=progress)
+        return flown, perf_counter() - began if timed else None
+
+
+@contextmanager
 def _progress(mission: "Mission") -> Iterator[Callable[[float], None]]:
     """Bar with simulated date and speed on the error stream, if that is a terminal."""
     from datetime import timedelta
@@ -86,24 +124,38 @@ def _progress(mission: "Mission") -> Iterator[Callable[[float], None]]:
 
     plan = mission.plan
     console = Console(stderr=True)
-    columns = (TextColumn("{task.fields[date]}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"),
-               TextColumn("{task.fields[speed]}"))  # fmt: skip
+    columns = (TextColumn("{task.fields[date]}"), BarColumn(bar_width=None), TextColumn("{task.percentage:>3.0f} %"),
+               _speed_column())  # fmt: skip
     began: list[float] = []
-    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
-        task = bar.add_task("", total=1.0, date=f"{plan.start_time:%Y-%m-%d %H:%M}", speed="compiling")
+    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True, expand=True) as bar:
+        task = bar.add_task("", total=1.0, date=f"{plan.start_time:%Y-%m-%d %H:%M}", speed=None)
 
         def report(share: float) -> None:
             simulated = share * plan.duration_days * 86400.0
             date = plan.start_time + timedelta(seconds=simulated)
             # the first piece may include compilation, which is no speed of flight
-            speed = (
-                "" if not began else f"{(simulated - began[1]) / max(monotonic() - began[0], 1e-9):,.0f} x real time"
-            )
+            speed = (simulated - began[1]) / max(monotonic() - began[0], 1e-9) if began else 0.0
             if not began:
                 began.extend((monotonic(), simulated))
             bar.update(task, completed=share, date=f"{date:%Y-%m-%d %H:%M}", speed=speed)
 
         yield report
+
+
+def _speed_column() -> "ProgressColumn":
+    """Times real time; before the first piece is flown, what the user waits for."""
+    from rich.progress import ProgressColumn, Task
+    from rich.table import Column
+    from rich.text import Text
+
+    class Speed(ProgressColumn):
+        def render(self, task: Task) -> Text:
+            speed = task.fields["speed"]
+            if speed is None:
+                return Text("getting ready" if (task.elapsed or 0.0) < _SHORT_WAIT else "compiling, once")
+            return Text(f"{speed:,.0f} x real time" if speed else "")
+
+    return Speed(Column(min_width=21, justify="right"))
 
 
 def _write(flown: "Flown", output: Path | None, plots: Path | None) -> list[Path]:
@@ -125,9 +177,8 @@ def _write(flown: "Flown", output: Path | None, plots: Path | None) -> list[Path
 def _show(row: dict[str, Any]) -> None:
     values = {
         "outcome": row["outcome"],
-        "time": f"{row['days']:.3g} days, {row['dives']} dives, deepest {row['deepest_m']:.1f} m",
-        "distance": f"{row['distance_made_good_km']:.4g} km made good, {row['distance_over_ground_km']:.4g} km over "
-        f"ground, {row['distance_through_water_km']:.4g} km along the path through the water",
+        "time": f"{_duration(row['days'])}, {row['dives']} dives, deepest {row['deepest_m']:.1f} m",
+        "distance": _distances(row),
         "seed": str(row["seed"]),
     }
     if row["energy_wh"] is not None:
@@ -135,14 +186,32 @@ def _show(row: dict[str, Any]) -> None:
             f"{row['battery_left_wh']:.4g} of {row['battery_wh']:.4g} Wh left ({row['battery_left_share']:.0%}): "
             f"{row['days_left']:.1f} days at the mean {row['mean_power_w']:.2f} W"
         )
+        values["voltage"] = f"{row['battery_end_v']:.2f} V at the end, {row['battery_least_v']:.2f} V at least"
     if row["reckoning_error_m"] is not None:
         error, miss = row["reckoning_error_m"], row["current_error_m_s"]
         values["navigation"] = f"off by {error['mean']:.0f} m on surfacing (mean), {error['greatest']:.0f} m at most"
         values["current"] = f"depth mean off by {miss['mean']:.4f} m/s (mean), {miss['greatest']:.4f} m/s at most"
+    if row["ctd_samples"]:
+        values["CTD"] = f"{row['ctd_samples']} samples"
+    if row["speed_up"] is not None:
+        values["speed"] = f"{row['speed_up']:,.0f} times real time, flown in {row['flight_s']:.3g} s"
     values["events"] = ", ".join(f"{name}: {count}" for name, count in row["events"].items()) or "none"
     show_values(f"{row['name']}: {row['vehicle']} in {row['ocean']}", values)
     if row["energy_wh"] is not None:
         _show_energy(row["energy_wh"])
+
+
+def _duration(days: float) -> str:
+    """A time in the unit that reads well."""
+    if days < 0.1:
+        return f"{days * 1440.0:.3g} minutes"
+    return f"{days * 24.0:.3g} hours" if days < 2.0 else f"{days:.4g} days"
+
+
+def _distances(row: dict[str, Any]) -> str:
+    km = [row[f"distance_{way}_km"] for way in ("made_good", "over_ground", "through_water")]
+    made, ground, water = (f"{1e3 * d:.0f} m" if max(km) < 3.0 else f"{d:.1f} km" for d in km)
+    return f"{made} made good, {ground} over ground, {water} through water"
 
 
 def _show_energy(energy: dict[str, float]) -> None:

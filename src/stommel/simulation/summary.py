@@ -36,6 +36,7 @@ def summary(flown: Flown) -> dict[str, Any]:
         **_distances(flown),
         **_energy(flown, days),
         **_navigation(flown.surfacings),
+        "ctd_samples": len(flown.samples),
         "events": _events(flown),
     }
 
@@ -73,11 +74,13 @@ def _energy(flown: Flown, days: float) -> dict[str, Any]:
     spent = {c: float(_column(flown.record, n)[-1]) for c, n in zip(CONSUMERS, names, strict=True)}
     total, stored = sum(spent.values()), flown.plant.battery_energy
     if not np.isfinite(stored) or total <= 0.0:
-        unknown = ("energy_wh", "mean_power_w", "battery_wh", "battery_left_wh", "battery_left_share", "days_left")
+        unknown = ("energy_wh", "mean_power_w", "battery_wh", "battery_left_wh", "battery_left_share", "days_left",
+                   "battery_end_v", "battery_least_v")  # fmt: skip
         return dict.fromkeys(unknown)
     lost = flown.plant.self_discharge * days * _DAY
     left = max(0.0, stored - total - lost)
     power = (total + lost) / (days * _DAY)
+    voltage = _column(flown.record, "voltage")
     return {
         "energy_wh": {c: joules / _WATT_HOUR for c, joules in spent.items()} | {"self_discharge": lost / _WATT_HOUR},
         "mean_power_w": power,
@@ -85,6 +88,8 @@ def _energy(flown: Flown, days: float) -> dict[str, Any]:
         "battery_left_wh": left / _WATT_HOUR,
         "battery_left_share": left / stored,
         "days_left": left / power / _DAY,
+        "battery_end_v": float(voltage[-1]),
+        "battery_least_v": float(voltage.min()),
     }
 
 

@@ -32,12 +32,17 @@ _WHERE = {
     "turn": "stommel.analysis",
     "design_study": "stommel.design.study",
     "write_report": "stommel.design.report",
+    "Mission": "stommel.simulation.mission",
+    "load_mission": "stommel.simulation.loading",
+    "fly_mission": "stommel.simulation.flight",
+    "dataset_of": "stommel.simulation.results",
     "StommelError": "stommel.errors",
 }
 
 __all__ = [
     "FULL",
     "PAPER",
+    "Mission",
     "Ocean",
     "Physics",
     "SteadyFlight",
@@ -48,9 +53,12 @@ __all__ = [
     "authority",
     "best_conditions",
     "builtin_names",
+    "dataset_of",
     "design_study",
     "flight_envelope",
+    "fly_mission",
     "linearise",
+    "load_mission",
     "load_vehicle",
     "modes",
     "ranges_needed",
@@ -82,6 +90,10 @@ if TYPE_CHECKING:
     from stommel.design.study import design_study
     from stommel.errors import StommelError
     from stommel.ocean import Ocean
+    from stommel.simulation.flight import fly_mission
+    from stommel.simulation.loading import load_mission
+    from stommel.simulation.mission import Mission
+    from stommel.simulation.results import dataset_of
     from stommel.vehicle import FULL, PAPER, Physics, Vehicle, builtin_names, load_vehicle
 
 

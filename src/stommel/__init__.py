@@ -7,7 +7,7 @@ time to load and a script may want only one of them.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
+from stommel.version import __version__
 
 _WHERE = {
     "FULL": "stommel.vehicle",

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-import stommel
 from stommel.files import whole_file
 from stommel.simulation import variables
 from stommel.simulation.ctd import samples_of
 from stommel.simulation.flight import Flown
 from stommel.simulation.memory import EVENT_COLUMNS, SAMPLE_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
+from stommel.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -132,10 +132,10 @@ def _provenance(flown: Flown) -> dict[str, Any]:
         "featureType": "trajectory",
         "title": plan.name,
         "summary": f"Simulated mission of {mission.vehicle.name} in {mission.ocean.name}",
-        "source": f"stommel {stommel.__version__}: eight degrees of freedom, actuators, sensors and control",
+        "source": f"stommel {__version__}: eight degrees of freedom, actuators, sensors and control",
         "outcome": flown.outcome,
         "seed": str(plan.seed),
-        "stommel_version": stommel.__version__,
+        "stommel_version": __version__,
         "mission_file": mission.origin,
         "mission": json.dumps(mission.document, default=str, sort_keys=True),
         "vehicle": mission.vehicle.description.model_dump_json(),

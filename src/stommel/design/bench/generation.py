@@ -9,13 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from stommel import __version__
 from stommel.design.bench.engine_log import EngineLog, EngineRun
 from stommel.design.bench.failures import BenchRequestError
 from stommel.design.bench.performance import OperatingPoint, model_points
 from stommel.design.bench.quantities import MARKER, QUANTITIES
 from stommel.design.engine.steady_state import EngineParameters
 from stommel.files import write_whole
+from stommel.version import __version__
 
 PAPER_PRESSURES_MPA = (0.0, 0.5, 1.0, 1.5, 2.0, 2.5)
 """Section 5.1.2 of the paper."""

@@ -6,7 +6,6 @@ from math import degrees
 from shlex import quote
 from typing import Any
 
-from stommel import __version__
 from stommel.analysis import LinearModel, Mode
 from stommel.analysis.limits import excesses
 from stommel.design.energy.study import MODEL_ASSUMPTIONS
@@ -17,6 +16,7 @@ from stommel.design.report.readings import locus_heading, locus_reading
 from stommel.design.report.verdict import at_stall, nearest_limit, summary, verdict
 from stommel.design.study import DesignStudy
 from stommel.vehicle import PHYSICS, Physics
+from stommel.version import __version__
 
 _STATES = {
     "u": ("u", "m/s", "m/s²"), "v": ("v", "m/s", "m/s²"), "w": ("w", "m/s", "m/s²"),

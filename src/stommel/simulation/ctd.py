@@ -45,7 +45,9 @@ def samples_of(flown: Flown) -> Samples:
     pressure = p + ctd.pressure_noise_dbar * noise.standard_normal(n)
     temperature = _column(rows, "thermistor") + ctd.temperature_noise_c * noise.standard_normal(n)
     conductivity = C + ctd.conductivity_noise_s_m * noise.standard_normal(n)
-    return Samples(pressure, temperature, conductivity, gsw.SP_from_C(conductivity * _MS_CM, temperature, pressure))
+    # in fresh water noise may take the conductivity below zero, where practical salinity has no value
+    salinity = gsw.SP_from_C(np.maximum(conductivity, 0.0) * _MS_CM, temperature, pressure)
+    return Samples(pressure, temperature, conductivity, salinity)
 
 
 def _column(rows: Array, name: str) -> Array:

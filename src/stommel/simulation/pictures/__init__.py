@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stommel.simulation.pictures.actuators_figure import actuators_figure
+from stommel.simulation.pictures.ctd_figure import ctd_figure
 from stommel.simulation.pictures.energy_figure import energy_figure
 from stommel.simulation.pictures.map_figure import map_figure
 from stommel.simulation.pictures.page import interactive_page
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "actuators_figure",
+    "ctd_figure",
     "energy_figure",
     "interactive_page",
     "map_figure",
@@ -43,6 +45,7 @@ def save_pictures(dataset: "xr.Dataset", folder: Path, ocean: "Ocean | None" = N
         "map": map_figure(dataset, ocean),
         "energy": energy_figure(dataset),
         "actuators": actuators_figure(dataset),
+        "ctd": ctd_figure(dataset),
     }
     written = [path for name, figure in figures.items() for path in save_figure(figure, folder / name)]
     page = folder / "mission.html"

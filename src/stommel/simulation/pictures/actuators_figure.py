@@ -1,22 +1,17 @@
 """What the actuators did in the first dives: oil, moving mass, rudder or rolling mass, and the angles that follow."""
 
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
-from stommel.control.dive_cycle import PHASES
 from stommel.design.plots.style import BLUE, GREEN, PURPLE, VERMILION, new_figure, styled
 from stommel.simulation.pictures.extracts import date, first_dives, fitting_unit, seconds, unbroken, values
+from stommel.simulation.pictures.phases import legend_of, shade_phases
 from stommel.simulation.pictures.trial_figure import DIVES
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-_SHADES = {"surface": "#e8eef3", "descent": "#ffffff", "inflection": "#f6e7dc", "ascent": "#f3f5f7",
-           "recovery": "#e8eef3"}  # fmt: skip
 
 
 @styled
@@ -39,7 +34,7 @@ def actuators_figure(dataset: xr.Dataset) -> "Figure":
     figure.suptitle(f"{dataset.attrs['title']}: actuators in the first dives, from {date(part)}", fontsize=9.5,
                     x=0.012, ha="left")  # fmt: skip
     for axes, (name, curve, title, colour) in zip(figure.subplots(len(panels), 1, sharex=True), panels, strict=True):
-        _phases(axes, part["phase"].values, time / length)
+        shade_phases(axes, part["phase"].values, time / length)
         axes.plot(time / length, curve, color=colour, linewidth=1.3, gid=name)
         axes.set_title(title)
         if name == "depth":
@@ -47,12 +42,5 @@ def actuators_figure(dataset: xr.Dataset) -> "Figure":
         if np.ptp(curve) < 1e-3:
             axes.set_ylim(curve.mean() - 1.0, curve.mean() + 1.0)
     axes.set_xlim(0.0, time[-1] / length)
-    axes.set_xlabel(f"Time [{unit}]; shaded: at the surface blue, inflection orange, ascent grey")
+    axes.set_xlabel(f"Time [{unit}]; behind: {legend_of(part['phase'].values)}")
     return figure
-
-
-def _phases(axes: "Axes", phase: np.ndarray, time: np.ndarray) -> None:
-    changes = np.flatnonzero(np.diff(phase)) + 1
-    edges = np.concatenate([[0], changes, [len(phase) - 1]])
-    for low, high in pairwise(edges):
-        axes.axvspan(time[low], time[high], color=_SHADES[PHASES[int(phase[low])]], linewidth=0)

@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from stommel.design.plots.style import INK, MUTED, new_figure, styled
+from stommel.design.plots.style import BLUE, INK, MUTED, new_figure, styled
 from stommel.simulation.parameters import CONSUMERS
-from stommel.simulation.pictures.extracts import fitting_unit, seconds, values
+from stommel.simulation.pictures.extracts import fitting_unit, seconds, thinned, values
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,8 +27,8 @@ def energy_figure(dataset: xr.Dataset) -> "Figure":
         figure = new_figure(7.0, 1.6)
         figure.text(0.5, 0.5, "No energy: the vehicle file describes no battery or consumers", ha="center", color=MUTED)
         return figure
-    figure = new_figure(8.8, 4.6)
-    axes = figure.subplots()
+    figure = new_figure(8.8, 6.2)
+    axes, below = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
     chosen = np.unique(np.linspace(0, len(time) - 1, min(len(time), _POINTS)).astype(int))
     unit, length = fitting_unit(float(time[-1]))
     energies = {name: values(dataset, f"energy_{name}")[chosen] / _WATT_HOUR for name in CONSUMERS}
@@ -49,7 +49,9 @@ def energy_figure(dataset: xr.Dataset) -> "Figure":
     axes.set_xlim(0.0, time[-1] / length)
     axes.set_ylim(bottom=0.0)
     axes.set_title(f"{dataset.attrs['title']}: energy from the battery [Wh], {total:.4g} in all")
-    axes.set_xlabel(f"Time [{unit}]")
+    below.plot(*thinned(time / length, values(dataset, "battery_voltage"), 2 * _POINTS), color=BLUE, linewidth=0.9)
+    below.set_title("Voltage of the battery under load, measured [V]")
+    below.set_xlabel(f"Time [{unit}]")
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles[::-1], labels[::-1], loc="outside right upper")
     return figure

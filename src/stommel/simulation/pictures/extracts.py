@@ -35,11 +35,22 @@ def date(dataset: xr.Dataset) -> str:
     return str(np.datetime_as_string(dataset["time"].values[0], unit="m")).replace("T", " ") + " UTC"
 
 
+def _begins(dataset: xr.Dataset) -> NDArray[np.datetime64]:
+    """Times at which dives begin."""
+    begins: NDArray[np.datetime64] = dataset["event_time"].values[
+        dataset["event_phase"].values == PHASES.index("descent")
+    ]
+    return begins
+
+
+def dives_begun(dataset: xr.Dataset) -> int:
+    """How many dives there are."""
+    return len(_begins(dataset))
+
+
 def first_dives(dataset: xr.Dataset, count: int) -> xr.Dataset:
     """Rows from the start to the end of the first `count` dives; all of them if there are fewer."""
-    descent = PHASES.index("descent")
-    phase = dataset["event_phase"].values
-    begins = dataset["event_time"].values[phase == descent]
+    begins = _begins(dataset)
     if len(begins) <= count:
         return dataset
     return dataset.isel(time=dataset["time"].values <= begins[count])

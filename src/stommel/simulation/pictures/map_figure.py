@@ -1,12 +1,12 @@
 """The way over ground, with surfacings and the depth-averaged current that they found."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
 from stommel.design.plots.style import BLUE, GREEN, INK, MUTED, VERMILION, new_figure, styled
-from stommel.simulation.pictures.extracts import positions, thinned, values
+from stommel.simulation.pictures.extracts import values
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -14,9 +14,10 @@ if TYPE_CHECKING:
 
     from stommel.ocean import Ocean
 
-_ARROWS = 40
-_LEAST_CURRENT = 0.005
-"""Currents below this are noise, not arrows [m/s]."""
+_ARROWS = 16
+_LEAST_CURRENT = 0.1
+"""The scale of the arrows is not finer than this [m/s]: noise must not look like a sea."""
+_SHALLOW, _DEEP = "#f3f8fb", "#8fb4d2"
 
 
 @styled
@@ -34,11 +35,12 @@ def map_figure(dataset: xr.Dataset, ocean: "Ocean | None" = None) -> "Figure":
     axes.plot(longitude[-1], latitude[-1], "s", color=VERMILION, markersize=6, label="end")
     if dataset.sizes["surfacing"]:
         axes.plot(values(dataset, "surfacing_longitude"), values(dataset, "surfacing_latitude"), ".", color=INK,
-                  markersize=3.0, label="surfacings")  # fmt: skip
+                  markersize=3.0, label="surfacings, by GPS")  # fmt: skip
         _currents(axes, dataset)
     axes.set_xlabel("Longitude [deg]")
     axes.set_ylabel("Latitude [deg]")
     axes.ticklabel_format(useOffset=False)
+    axes.locator_params(nbins=6)
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower left", ncols=4)
     return figure
@@ -56,34 +58,42 @@ def _frame(axes: "Axes", latitude: np.ndarray, longitude: np.ndarray) -> None:
 
 
 def _bottom(figure: "Figure", axes: "Axes", ocean: "Ocean") -> None:
+    """Depth of the bottom within the frame, land in sand."""
+    from matplotlib.colors import LinearSegmentedColormap  # noqa: PLC0415 - start-up counts
+    from matplotlib.ticker import MaxNLocator  # noqa: PLC0415
+
     grid = ocean.grid()
     latitude, longitude = ocean.node_places()
     depth = np.where(grid.levels > 0, grid.bottom, np.nan)
     if not np.isfinite(depth).any() or np.nanmax(depth) > 2e4:
         return
-    filled = axes.contourf(longitude, latitude, depth, levels=12, cmap="Blues", alpha=0.45)
+    south, north, west, east = *axes.get_ylim(), *axes.get_xlim()
+    seen = depth[(latitude >= south) & (latitude <= north) & (longitude >= west) & (longitude <= east)]
+    seen = seen[np.isfinite(seen)]
+    if len(seen) and np.ptp(seen) > 0.0:
+        levels: Any = MaxNLocator(10).tick_values(float(seen.min()), float(seen.max()))
+    else:
+        levels = 10
+    colours = LinearSegmentedColormap.from_list("depth", [_SHALLOW, _DEEP])
+    filled = axes.contourf(longitude, latitude, depth, levels=levels, cmap=colours, extend="both")
     axes.set_facecolor("#d9d4c9")
-    figure.colorbar(filled, ax=axes, label="Depth of the bottom [m]", shrink=0.7, pad=0.01)
+    bar = figure.colorbar(filled, ax=axes, label="Depth of the bottom [m]", shrink=0.7, pad=0.01, format="%.0f")
+    bar.ax.invert_yaxis()
 
 
 def _currents(axes: "Axes", dataset: xr.Dataset) -> None:
-    """Arrows of the depth-averaged current, every so many surfacings."""
-    every = max(1, dataset.sizes["surfacing"] // _ARROWS)
+    """Arrows of the depth-averaged current, found and true, every so many surfacings."""
+    every = -(-dataset.sizes["surfacing"] // _ARROWS)
     part = dataset.isel(surfacing=slice(None, None, every))
-    east, north = (values(part, f"depth_averaged_current_{way}") for way in ("east", "north"))
-    strongest = float(np.hypot(east, north).max())
-    if strongest < _LEAST_CURRENT:
-        axes.annotate("no current found", (0.02, 0.02), xycoords="axes fraction", color=MUTED)
-        return
-    arrows = axes.quiver(values(part, "surfacing_longitude"), values(part, "surfacing_latitude"), east, north,
-                         color=VERMILION, width=0.0028, scale=8.0 * strongest, zorder=3)  # fmt: skip
+    places = values(part, "surfacing_longitude"), values(part, "surfacing_latitude")
+    found, true = (
+        [values(part, f"{kind}_current_{way}") for way in ("east", "north")] for kind in ("depth_averaged", "true")
+    )
+    strongest = max(_LEAST_CURRENT, float(np.nanmax(np.hypot(*found))))
     unit = float(f"{strongest:.1g}")
-    axes.quiverkey(arrows, 0.86, 0.04, unit, f"{unit:g} m/s", labelpos="E", coordinates="axes")
-
-
-def track(dataset: xr.Dataset, most: int) -> tuple[np.ndarray, np.ndarray]:
-    """Kilometres east and north of the start, thinned to about `most` points."""
-    east, north = positions(dataset)
-    kept, _ = thinned(np.arange(len(east), dtype=float), north, most)
-    chosen = kept.astype(int)
-    return east[chosen], north[chosen]
+    arrows = (("true mean", true, INK, 0.006, 0.075), ("found", found, VERMILION, 0.0028, 0.04))
+    for name, (east, north), colour, width, height in arrows:
+        drawn = axes.quiver(*places, east, north, color=colour, alpha=0.45 if name == "true mean" else 1.0, width=width,
+                            scale=8.0 * strongest, zorder=3)  # fmt: skip
+        axes.quiverkey(drawn, 0.70, height, unit, f"{unit:g} m/s, {name}", labelpos="E", coordinates="axes")
+    axes.annotate("current of the dives", (0.58, 0.105), xycoords="axes fraction", color=MUTED, fontsize=8.8)

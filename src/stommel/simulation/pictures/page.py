@@ -12,14 +12,15 @@ from numpy.typing import NDArray
 
 from stommel.control.dive_cycle import PHASES
 from stommel.simulation.parameters import CONSUMERS
-from stommel.simulation.pictures.extracts import positions, unbroken, values
+from stommel.simulation.pictures.extracts import positions, seconds, unbroken, values
+from stommel.simulation.pictures.phases import SHADES
 
 Array = NDArray[np.float64]
 
 MOST_ROWS = 40_000
 """Rows in the page; of a longer record every so many."""
 
-_MILLI, _WATT_HOUR = 1e3, 1.0 / 3600.0
+_MILLI, _WATT_HOUR, _KILO = 1e3, 1.0 / 3600.0, 1e-3
 
 
 def interactive_page(dataset: xr.Dataset) -> str:
@@ -31,7 +32,8 @@ def interactive_page(dataset: xr.Dataset) -> str:
         "time": _encoded((part["time"].values - part["time"].values[0]) / np.timedelta64(1, "ns") / 1e9),
         "phase": _encoded(part["phase"].values),
         "phases": list(PHASES),
-        "panels": _panels(part),
+        "shades": [SHADES[name] for name in PHASES],
+        "panels": _panels(part) + _sampled(dataset) + _energy(part),
         "track": dict(zip(("east", "north"), map(_encoded, positions(part)), strict=True)),
         "surfacings": _surfacings(dataset),
     }
@@ -70,14 +72,37 @@ def _panels(part: xr.Dataset) -> list[dict[str, Any]]:
         ),
         _panel("Speed through the water", "m/s", [("speed", speed)]),
         _panel("Current", "m/s", [("east", values(part, "current_east")), ("north", values(part, "current_north"))]),
-        _panel("Temperature", "°C", [("in situ", values(part, "temperature"))]),
         _panel("Density", "kg/m³", [("in situ", values(part, "density"))]),
-        _panel(
-            "Energy from the battery",
-            "Wh",
-            [(name.replace("_", " "), _WATT_HOUR * values(part, f"energy_{name}")) for name in CONSUMERS],
-        ),
     ]
+
+
+def _sampled(dataset: xr.Dataset) -> list[dict[str, Any]]:
+    """What the CTD measured, at its own times, broken where it was off; nothing where it never was on."""
+    if not dataset.sizes["sample"]:
+        return []
+    part = dataset.isel(sample=slice(None, None, -(-dataset.sizes["sample"] // MOST_ROWS)))
+    time = seconds(part, "sample_time", dataset["time"].values[0])
+    steps = np.diff(time)
+    off = np.flatnonzero(steps > 3.0 * np.median(steps)) + 1 if len(steps) else np.empty(0, dtype=int)
+    found = [
+        _panel(f"{title} by the CTD", unit, [("measured", np.insert(values(part, name), off, np.nan))])
+        for title, unit, name in (
+            ("Temperature", "°C", "sample_temperature"),
+            ("Practical salinity", "1", "sample_practical_salinity"),
+        )
+    ]
+    return [panel | {"time": _encoded(np.insert(time, off, time[off]))} for panel in found]
+
+
+def _energy(part: xr.Dataset) -> list[dict[str, Any]]:
+    """Battery and hull; without those that the vehicle file does not tell."""
+    energies = [(name.replace("_", " "), _WATT_HOUR * values(part, f"energy_{name}")) for name in CONSUMERS]
+    panels = [
+        _panel("Energy used", "Wh", energies),
+        _panel("Voltage of the battery", "V", [("measured", values(part, "battery_voltage"))]),
+        _panel("Pressure in the hull", "kPa", [("measured", _KILO * values(part, "internal_pressure"))]),
+    ]
+    return [panel for panel in panels if panel["curves"]]
 
 
 def _panel(title: str, unit: str, curves: list[tuple[str, Array]], *, down: bool = False) -> dict[str, Any]:

@@ -6,55 +6,77 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from stommel.design.plots.style import INK, MUTED, new_figure, styled
-from stommel.simulation.pictures.extracts import date, fitting_unit, seconds, values
+from stommel.control.dive_cycle import PHASES
+from stommel.design.plots.style import INK, MUTED, VERMILION, new_figure, styled
+from stommel.simulation.pictures.extracts import date, dives_begun, first_dives, fitting_unit, seconds, values
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
-_LONGEST_SAWTOOTH = 3.0 * 86400.0
-"""Over a longer mission single dives cannot be told apart; the panel below shows so much of its start [s]."""
+_READABLE_DIVES = 16
+"""More dives side by side hide the water; then a panel of its own shows so many."""
+_LEAST_SPAN = 0.1
+"""Of the colours [kg/m3]: water of one density must not look stratified."""
+
+_BOTTOM_SHOWN = 1.5
+"""The bottom is drawn down to so many times the deepest dive."""
 
 
 @styled
 def sawtooth_figure(dataset: xr.Dataset) -> "Figure":
     """Draw density over time and depth, averaged in cells between the dives, with the path and the bottom."""
-    time, depth = seconds(dataset), values(dataset, "depth")
-    whole = float(time[-1]) <= _LONGEST_SAWTOOTH
-    figure = new_figure(9.4, 4.2 if whole else 7.4)
+    many = dives_begun(dataset) > _READABLE_DIVES
+    figure = new_figure(9.4, 7.4 if many else 4.2)
     figure.suptitle(f"{dataset.attrs['title']}: sawtooth over density, from {date(dataset)}", fontsize=9.5, x=0.012,
                     ha="left")  # fmt: skip
-    panels = figure.subplots(1 if whole else 2, 1, squeeze=False).ravel()
+    panels = figure.subplots(2 if many else 1, 1, squeeze=False).ravel()
     density = values(dataset, "density")
-    limits = (float(np.nanmin(density)), max(float(np.nanmax(density)), float(np.nanmin(density)) + 0.1))
-    spans = [float(time[-1])] if whole else [float(time[-1]), _LONGEST_SAWTOOTH / 3.0]
-    for axes, span in zip(panels, spans, strict=True):
-        unit, length = fitting_unit(span)
-        kept = time <= span
-        edges, levels, mean = _cells(time[kept], depth[kept], density[kept])
-        mesh = axes.pcolormesh(edges / length, levels, mean, cmap="YlGnBu", vmin=limits[0], vmax=limits[1],
-                               rasterized=True)  # fmt: skip
-        if span <= _LONGEST_SAWTOOTH:
-            axes.plot(time[kept] / length, depth[kept], color=INK, linewidth=0.9)
-        bottom = values(dataset, "bottom_depth")[kept]
-        if np.nanmin(bottom, initial=np.inf) < 2.0 * depth.max():
-            axes.plot(time[kept] / length, bottom, color=MUTED, linewidth=1.4)
-            axes.fill_between(time[kept] / length, bottom, 1e5, color="#d9d4c9", linewidth=0)
-        axes.set_ylim(1.06 * max(depth.max(), 1e-3), 0.0)
-        axes.set_xlim(0.0, span / length)
-        axes.grid(visible=False)
-        axes.set_xlabel(f"Time [{unit}]")
-        axes.set_ylabel("Depth [m]")
-    figure.colorbar(mesh, ax=list(panels), label="Density in situ [kg/m³]", pad=0.01)
+    low, high = float(np.nanmin(density)), float(np.nanmax(density))
+    limits = (low, max(high, low + _LEAST_SPAN))
+    parts = [dataset, first_dives(dataset, _READABLE_DIVES)] if many else [dataset]
+    for axes, part in zip(panels, parts, strict=True):
+        _panel(axes, part, limits, with_path=part is parts[-1])
+    figure.colorbar(axes.collections[0], ax=list(panels), label="Density in situ [kg/m³]", pad=0.01)
     return figure
 
 
-def _cells(time: Array, depth: Array, density: Array) -> tuple[Array, Array, Array]:
+def _panel(axes: "Axes", part: xr.Dataset, limits: tuple[float, float], *, with_path: bool) -> None:
+    time, depth = seconds(part), values(part, "depth")
+    span, deepest = float(time[-1]), max(1.04 * float(depth.max()), 1e-3)
+    unit, length = fitting_unit(span)
+    edges, levels, mean = _cells(time, depth, values(part, "density"), deepest)
+    axes.pcolormesh(edges / length, levels, mean, cmap="YlGnBu", vmin=limits[0], vmax=limits[1], rasterized=True)
+    if with_path:
+        axes.plot(time / length, depth, color=INK, linewidth=1.0)
+        _drift(axes, part, time / length, depth)
+    bottom = values(part, "bottom_depth")
+    shown = _BOTTOM_SHOWN * float(depth.max())
+    if np.nanmin(bottom, initial=np.inf) < shown:
+        deepest = max(deepest, min(1.04 * float(np.nanmax(bottom)), shown))
+        axes.plot(time / length, bottom, color=MUTED, linewidth=1.4)
+        axes.fill_between(time / length, bottom, 1e5, color="#d9d4c9", linewidth=0)
+    axes.set_ylim(deepest, 0.0)
+    axes.set_xlim(0.0, span / length)
+    axes.grid(visible=False)
+    axes.set_xlabel(f"Time [{unit}]")
+    axes.set_ylabel("Depth [m]")
+
+
+def _drift(axes: "Axes", part: xr.Dataset, time: Array, depth: Array) -> None:
+    """Draw over the path where the vehicle hangs in the water."""
+    drifting = part["phase"].values == PHASES.index("drift")
+    if drifting.any():
+        axes.plot(time, np.where(drifting, depth, np.nan), color=VERMILION, linewidth=2.4, label="drift")
+        axes.legend(loc="lower right", framealpha=0.85, frameon=True)
+
+
+def _cells(time: Array, depth: Array, density: Array, deepest: float) -> tuple[Array, Array, Array]:
     """Mean density in cells of time and depth; cells that no dive crossed take the last value before them."""
     columns, rows = min(160, max(8, len(time) // 60)), 50
-    edges, levels = np.linspace(time[0], time[-1], columns + 1), np.linspace(0.0, max(depth.max(), 1e-3), rows + 1)
+    edges, levels = np.linspace(time[0], time[-1], columns + 1), np.linspace(0.0, deepest, rows + 1)
     i = np.clip(np.searchsorted(edges, time, side="right") - 1, 0, columns - 1)
     j = np.clip(np.searchsorted(levels, depth, side="right") - 1, 0, rows - 1)
     cell = j * columns + i

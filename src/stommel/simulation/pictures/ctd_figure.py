@@ -1,0 +1,61 @@
+"""What the CTD measured: temperature and practical salinity over time and depth."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from stommel.design.plots.style import MUTED, new_figure, styled
+from stommel.simulation.pictures.extracts import Array, date, fitting_unit, seconds, values
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_MOST = 40_000
+"""Samples drawn; of more every so many, the file has them all."""
+_SPIKES = (0.5, 99.5)
+"""Percentiles between which the colours lie: single spikes of salinity must not wash them out."""
+
+_ROOM = 1e5
+"""Area of a panel [pt2], which the samples share."""
+
+
+@styled
+def ctd_figure(dataset: xr.Dataset) -> "Figure":
+    """Draw every sample where it was taken; a sentence instead where none was."""
+    if not dataset.sizes["sample"]:
+        figure = new_figure(7.0, 1.6)
+        figure.text(0.5, 0.5, "No samples of the CTD in this mission", ha="center", color=MUTED)
+        return figure
+    part = dataset.isel(sample=slice(None, None, -(-dataset.sizes["sample"] // _MOST)))
+    time = seconds(part, "sample_time", dataset["time"].values[0])
+    unit, length = fitting_unit(float(seconds(dataset)[-1]))
+    pressure = values(part, "sample_pressure")
+    figure = new_figure(9.4, 6.6)
+    figure.suptitle(f"{dataset.attrs['title']}: samples of the CTD, from {date(dataset)}", fontsize=9.5, x=0.012,
+                    ha="left")  # fmt: skip
+    panels = (
+        ("sample_temperature", "Temperature [°C]", "plasma", 0.05),
+        ("sample_practical_salinity", "Practical salinity", "viridis", 0.005),
+    )
+    size = float(np.clip(_ROOM / len(time), 3.0, 40.0))
+    for axes, (name, title, colours, least_span) in zip(figure.subplots(2, 1, sharex=True), panels, strict=True):
+        measured = values(part, name)
+        low, high = _limits(measured, least_span)
+        dots = axes.scatter(time / length, pressure, c=measured, s=size, marker="s", cmap=colours, vmin=low, vmax=high,
+                            linewidths=0, rasterized=True)  # fmt: skip
+        axes.set_ylim(1.03 * float(pressure.max()), 0.0)
+        axes.set_ylabel("Sea pressure [dbar]")
+        axes.grid(visible=False)
+        bar = figure.colorbar(dots, ax=axes, label=title, pad=0.01, extend="both")
+        bar.formatter.set_useOffset(False)  # type: ignore[attr-defined]  # a ScalarFormatter where colours are linear
+    axes.set_xlim(0.0, float(seconds(dataset)[-1]) / length)
+    axes.set_xlabel(f"Time [{unit}]")
+    return figure
+
+
+def _limits(measured: Array, least_span: float) -> tuple[float, float]:
+    """Colour limits; a constant must not look like structure."""
+    low, high = (float(end) for end in np.percentile(measured[np.isfinite(measured)], _SPIKES))
+    middle, half = 0.5 * (low + high), 0.5 * max(high - low, least_span)
+    return middle - half, middle + half

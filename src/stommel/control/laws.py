@@ -10,6 +10,10 @@ from stommel.dynamics.compilation import compiled, inlined
 
 TURN = 2.0 * math.pi
 
+ENDABLE = 0.5
+"""Part of the turn rate at which full steering just holds an unstable spiral, up to which the vehicle is told to turn.
+Beyond that rate nothing stops the spiral but the end of the dive."""
+
 
 class PitchLaw(NamedTuple):
     """Feedback on pitch by the moving mass."""
@@ -89,13 +93,16 @@ def steering_gains(response: float, pole: float) -> tuple[float, float]:
 
 
 @compiled
-def steering_command(law: HeadingLaw, previous: float, error: float, rate: float, pole: float, drive: float) -> float:
+def steering_command(
+    law: HeadingLaw, previous: float, error: float, rate: float, pole: float, drive: float, way: float
+) -> float:
     """Next command of rudder or rolling mass [rad]; kept while it would change too little.
 
     The turn answers as r' = pole r + drive delta (`stommel.control.flight_table`). With delta = K error - D r its
     characteristic equation is s^2 + (drive D - pole) s + drive K = 0: D brings the damping to that of a critical answer
     within the response time, where the flight has less of its own, and K follows. The drive's sign is taken as it is:
-    a climb may turn the other way than a dive.
+    a climb may turn the other way than a dive. Where the pole is positive the wanted turn rate is limited to what the
+    steering can end again.
 
     Parameters
     ----------
@@ -105,9 +112,17 @@ def steering_command(law: HeadingLaw, previous: float, error: float, rate: float
         Measured turn rate [rad/s].
     pole, drive
         Of the flight, [1/s] and [1/s2].
+    way
+        Speed over that of the flight, at most 1: a vehicle that gathers way steers with the square of it.
     """
     stiffness, damping = steering_gains(law.response, pole)
-    demand = stiffness * error - damping * rate
+    towards = stiffness * error
+    if pole > 0.0:
+        fastest = ENDABLE * abs(drive) * way * way * law.limit / pole
+        # it settles where r' = pole r + towards - damping r is zero
+        most = (damping - pole) * fastest
+        towards = min(most, max(-most, towards))
+    demand = towards - damping * rate
     # a flight that hardly answers gets the limit, not a division by nothing
     command = demand / drive if abs(drive) * law.limit > abs(demand) else math.copysign(law.limit, demand * drive)
     if abs(command - previous) < law.dead_band:

@@ -63,8 +63,10 @@ class Sensors(NamedTuple):
     """[Pa]"""
     leak_volume: float
     """Water in the hull that the leak detectors notice [m3]."""
-    thermistor_weight: float
-    """Share of a difference in temperature that the CTD's thermistor follows in one control step."""
+    thermistor_decay: float
+    """Share of the lag of the CTD's thermistor that is left after one control step."""
+    thermistor_gain: float
+    """New lag of the thermistor for a change of the water's temperature in one control step."""
     cell_decay: float
     """Share of the thermal error of the conductivity cell that is left after one control step."""
     cell_gain: float

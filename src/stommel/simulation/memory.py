@@ -66,7 +66,7 @@ SOFTWARE_STATE = np.dtype(
         ("latitude", "f8"), ("longitude", "f8"), ("metres_north", "f8"), ("metres_east", "f8"),
         ("reckoned_north", "f8"), ("reckoned_east", "f8"),
         ("submerged_latitude", "f8"), ("submerged_longitude", "f8"),
-        ("surfaced_at", "f8"), ("under_water", "f8"), ("reckoning_error", "f8"),
+        ("surfaced_at", "f8"), ("under_water", "f8"), ("adrift", "f8"), ("reckoning_error", "f8"),
         ("received", "f8"), ("first_fix_at", "f8"), ("first_fix_latitude", "f8"), ("first_fix_longitude", "f8"),
         ("fix_at", "f8"), ("fix_latitude", "f8"), ("fix_longitude", "f8"),
         ("current_north", "f8"), ("current_east", "f8"), ("energy_used", "f8"),

@@ -201,9 +201,9 @@ def fly(
         software.depth_before = depth
         if tick % sensors.sample_every == 0 and sensors.sampled[int(software.phase)] != 0.0:
             write_sample(log, t, x, water, software, world, column)
-        advance(equipment, x, k, trial, software, world, done, loop, column, t)
         if tick % loop.record_every == 0:
             write_row(log, t, age, x, equipment, software, world, measured, depth, column, noise)
+        advance(equipment, x, k, trial, software, world, done, loop, column, t)
         if not math.isfinite(x[2]) or not math.isfinite(x[7]):
             return NOT_FINITE
         if world.energy_total + plant.self_discharge * t > plant.battery_energy:

@@ -100,8 +100,9 @@ class Aborts(Table):
 class PitchControl(Table):
     """Feedback on pitch."""
 
-    gain_mm_per_deg: NotNegative = 2.0
-    """Correction of the moving mass for each degree of error, once a period."""
+    gain_mm_per_deg: NotNegative | None = None
+    """Correction of the moving mass for each degree of error, once a period; if left out, a third of what the flight
+    table has between two flights a degree apart."""
     dead_band_deg: NotNegative = 0.5
     """Error that is left alone."""
     period_s: Positive = 120.0

@@ -102,10 +102,13 @@ def altimeter(sensors: Sensors, above: float, noise: np.random.Generator) -> flo
 def feel_temperature(sensors: Sensors, world: np.record, T: float) -> None:
     """Let thermistor and conductivity cell of the CTD follow the water's temperature through one control step.
 
-    The thermistor is a first-order lag; the cell's walls lag by the thermal mass of Lueck and Picklo (1990).
+    The thermistor is a first-order lag; the cell's walls lag by the thermal mass of Lueck and Picklo (1990). Both are
+    exact for a temperature that changes evenly through the step.
     """
-    world.thermistor += sensors.thermistor_weight * (T - world.thermistor)
-    world.cell_error = sensors.cell_decay * world.cell_error + sensors.cell_gain * (T - world.water_before)
+    change = T - world.water_before
+    lag = sensors.thermistor_decay * (world.water_before - world.thermistor) + sensors.thermistor_gain * change
+    world.thermistor = T - lag
+    world.cell_error = sensors.cell_decay * world.cell_error + sensors.cell_gain * change
     world.water_before = T
 
 

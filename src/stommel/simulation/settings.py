@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from stommel.analysis.flight_table import fastest_mode
 from stommel.control.dive_cycle import PHASES, DivePlan
-from stommel.control.flight_table import FlightTable
+from stommel.control.flight_table import FlightTable, look_up
 from stommel.control.laws import DriftLaw, HeadingLaw, PitchLaw
 from stommel.simulation.ballasting import ballast_volumes, drives, mass_position_at_rest, neutral_volumes
 from stommel.simulation.instruments import Alarms, Hull, Sensors
@@ -94,9 +94,10 @@ def sensors_of(plan: MissionFile) -> Sensors:
         internal_pressure_bias=s.internal_pressure_bias_pa,
         internal_pressure_noise=s.internal_pressure_noise_pa,
         leak_volume=s.leak_ml / 1e6,
-        thermistor_weight=_weight(step, ctd.temperature_lag_s),
+        thermistor_decay=1.0 - _weight(step, ctd.temperature_lag_s),
+        # the answers to a temperature that changes evenly through the step
+        thermistor_gain=ctd.temperature_lag_s / step * _weight(step, ctd.temperature_lag_s),
         cell_decay=1.0 - _weight(step, ctd.cell_lag_s),
-        # the answer to a temperature that changes evenly through the step
         cell_gain=ctd.cell_share * ctd.cell_lag_s / step * _weight(step, ctd.cell_lag_s),
         sample_every=round(plan.sampling.every_s / step),
         sampled=np.array([float(phase in plan.sampling.phases) for phase in PHASES]),
@@ -129,7 +130,7 @@ def orders_of(mission: Mission, plant: Plant, dives: DivePlan, table: FlightTabl
     return Orders(
         dives=dives,
         laws=Laws(
-            _pitch_law(plan),
+            _pitch_law(plan, dives, table),
             _heading_law(plan),
             DriftLaw(
                 gain=drift.gain_ml_s_m / 1e6,
@@ -189,10 +190,19 @@ def dive_plan(mission: Mission, plant: Plant) -> DivePlan:
     )
 
 
-def _pitch_law(plan: MissionFile) -> PitchLaw:
+CORRECTED = 1.0 / 3.0
+"""Part of a pitch error that one correction by the moving mass takes away."""
+
+
+def _pitch_law(plan: MissionFile, dives: DivePlan, table: FlightTable) -> PitchLaw:
     law = plan.pitch_control
+    if law.gain_mm_per_deg is None:
+        ends = [look_up(table, dives.theta + turn, dives.V_b_dive)[0] for turn in (-radians(1.0), radians(1.0))]
+        gain = CORRECTED * abs(ends[1] - ends[0]) / radians(2.0)
+    else:
+        gain = law.gain_mm_per_deg / 1e3 / radians(1.0)
     return PitchLaw(
-        gain=law.gain_mm_per_deg / 1e3 / radians(1.0),
+        gain=gain,
         dead_band=radians(law.dead_band_deg),
         period=law.period_s,
         tolerance=law.tolerance_mm / 1e3,

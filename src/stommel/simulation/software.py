@@ -156,7 +156,10 @@ def _steer(software: np.record, table: FlightTable, law: HeadingLaw, theta: floa
     """Command of the steering for the wanted heading, by how the flight at this pitch and ballast turns."""
     pole, drive = look_up_turning(table, theta, V_b)
     error = wrapped(software.heading_wanted - psi)
-    return steering_command(law, software.steering, error, software.turning, pole, drive)
+    way = 1.0
+    if pole > 0.0:
+        way = min(1.0, software.path_speed / look_up(table, theta, V_b)[2])
+    return steering_command(law, software.steering, error, software.turning, pole, drive, way)
 
 
 @inlined
@@ -226,9 +229,14 @@ def leave_surface(software: np.record, t: float) -> float:
     """Begin a dive where drift has carried the last position: drift, place of surfacing, depth-averaged current.
 
     Returns the time under water that the current was averaged over [s], zero where there was none. Without any
-    position the reckoning goes on from the dive before, and the current waits for the next one.
+    position the reckoning goes on from the dive before, and the current waits for the next one: meanwhile the water has
+    carried the vehicle at the surface too.
     """
     if software.first_fix_at < 0.0:
+        waited = t - software.surfaced_at
+        software.adrift += waited
+        software.latitude += software.current_north * waited / software.metres_north
+        software.longitude = wrapped(software.longitude + software.current_east * waited / software.metres_east)
         return 0.0
     between = software.fix_at - software.first_fix_at
     m_north, m_east = metres_per_radian(software.fix_latitude)
@@ -244,11 +252,11 @@ def leave_surface(software: np.record, t: float) -> float:
         found_north = (surfaced_latitude - software.submerged_latitude) * m_north
         found_east = wrapped(surfaced_longitude - software.submerged_longitude) * m_east
         software.current_north, software.current_east = depth_averaged_current(
-            software.reckoned_north, software.reckoned_east, found_north, found_east, submerged
+            software.reckoned_north, software.reckoned_east, found_north, found_east, submerged + software.adrift
         )
     since = t - software.fix_at
     software.latitude = software.fix_latitude + drift_north * since / m_north
     software.longitude = wrapped(software.fix_longitude + drift_east * since / m_east)
     software.submerged_latitude, software.submerged_longitude = software.latitude, software.longitude
-    software.reckoned_north = software.reckoned_east = software.under_water = 0.0
+    software.reckoned_north = software.reckoned_east = software.under_water = software.adrift = 0.0
     return submerged

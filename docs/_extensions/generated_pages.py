@@ -1,4 +1,4 @@
-"""Pages that follow the code: the tables of a vehicle file, and one page of reference a package.
+"""Pages that follow the code: the tables of vehicle and mission files, and one page of reference a package.
 
 They are written to docs/_generated before Sphinx reads its sources, so that they cannot disagree with the code.
 """
@@ -13,13 +13,14 @@ import tomllib
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
-from typing import Any, get_args, get_origin
+from typing import Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel, BeforeValidator
 from sphinx.application import Sphinx
 from sphinx.util import logging
 
 import stommel
+from stommel.simulation.mission_file import MissionFile
 from stommel.vehicle.messages import allowed_range, unit_of
 from stommel.vehicle.schema import VehicleFile
 from stommel.vehicle.schema.fields import Table
@@ -51,7 +52,7 @@ def _models_in(annotation: Any) -> list[type[BaseModel]]:
 
 
 def tables(model: type[BaseModel], prefix: str = "") -> Iterator[tuple[str, str, type[BaseModel]]]:
-    """Yield (dotted name, heading as in TOML, model) of every table of a vehicle file, the head of the file first."""
+    """Yield (dotted name, heading as in TOML, model) of every table of a file, the head of the file first."""
     many = prefix.endswith("[]")
     name = prefix.removesuffix("[]")
     yield name, f"[[{name}]]" if many else f"[{name}]" if name else "Head of the file", model
@@ -61,16 +62,26 @@ def tables(model: type[BaseModel], prefix: str = "") -> Iterator[tuple[str, str,
             yield from tables(inner, f"{name}.{key}".lstrip(".") + ("[]" if repeated else ""))
 
 
+def _choices(annotation: Any) -> list[str | int]:
+    if get_origin(annotation) is Literal:
+        return [choice for choice in get_args(annotation) if isinstance(choice, str | int)]
+    return [choice for argument in get_args(annotation) for choice in _choices(argument)]
+
+
 def _kind(field: Any) -> str:
     """What a value looks like, where it is not one number."""
     annotation = field.annotation
-    text = str(annotation)
+    text = str(annotation).replace("strict", "")
     diagonal = any(isinstance(extra, BeforeValidator) for extra in field.metadata)
-    choices = [choice for choice in get_args(annotation) if isinstance(choice, str | int)]
-    if choices:
-        return " or ".join(f"`{choice!r}`".replace("'", '"') for choice in choices)
+    if choices := _choices(annotation):
+        words = " or ".join(f"`{choice!r}`".replace("'", '"') for choice in choices)
+        return f"list of {words}" if get_origin(annotation) is tuple else words
     shapes = (
+        ("datetime" in text, "date and time with a time zone"),
+        ("dict[str, str]" in text, "table of text"),
+        ("dict" in text, "table of numbers"),
         (text.count("tuple") >= 3, "three rows" + ", or `[xx, yy, zz]` for a diagonal" * diagonal),
+        ("str | tuple[str" in text, "text, or list of text"),
         ("tuple[str" in text, "list of text"),
         ("bool" in text, "`true` or `false`"),
         ("str" in text, "text"),
@@ -81,42 +92,54 @@ def _kind(field: Any) -> str:
     numbers = next((a for a in (annotation, *get_args(annotation)) if get_origin(a) is tuple), None)
     if numbers is None:
         return ""
-    return "[x, y, z]" if len(get_args(numbers)) == 3 else "[low, high]"
+    if get_args(numbers)[-1] is Ellipsis:
+        return "list of numbers"
+    return {2: "[low, high]", 3: "[x, y, z]", 4: "four numbers"}[len(get_args(numbers))]
 
 
 def _default(field: Any) -> str:
     if field.is_required():
         return "required"
-    if field.default is None:
+    default = field.get_default(call_default_factory=True)
+    if default is None:
         return "not given"
-    if field.default in ((), ""):
+    if default in ((), "", {}):
         return "empty"
-    if isinstance(field.default, tuple):
-        return "zero"
-    return f"`{field.default!r}`".replace("'", '"').replace("False", "false")
+    if isinstance(default, tuple):
+        if all(isinstance(item, str) for item in default):
+            return "all" if default == tuple(_choices(field.annotation)) else ", ".join(default)
+        rows = default if isinstance(default[0], tuple) else (default,)
+        return "unit matrix" if any(any(row) for row in rows) else "zero"
+    if isinstance(default, bool):
+        return f"`{default}`".lower()
+    return (
+        f"`{default:g}`"
+        if isinstance(default, float) and not default.is_integer()
+        else f"`{default!r}`".replace("'", '"')
+    )
 
 
-def vehicle_tables(meanings: dict[str, str]) -> Iterator[str]:
-    """Yield the lines of the page: a table of keys for each table of a vehicle file."""
+def file_tables(model: type[BaseModel], meanings: dict[str, str], what: str) -> Iterator[str]:
+    """Yield the lines of a page: a table of keys for each table of a file; `what` it is, for messages."""
     unused = set(meanings)
-    for name, heading, model in tables(VehicleFile):
-        yield f"\n## {heading if not name else f'`{heading}`'}\n\n{inspect.getdoc(model)}\n\n"
+    for name, heading, table in tables(model):
+        yield f"\n## {heading if not name else f'`{heading}`'}\n\n{inspect.getdoc(table)}\n\n"
+        keys = [key for key, field in table.model_fields.items() if not _models_in(field.annotation)]
         yield "| key | unit | meaning | allowed | if left out |\n|---|---|---|---|---|\n"
-        written = attribute_docstrings(model)
-        for key, field in model.model_fields.items():
-            if _models_in(field.annotation):
-                continue
+        written = attribute_docstrings(table)
+        for key in keys:
+            field = table.model_fields[key]
             dotted = f"{name}.{key}".lstrip(".")
             meaning = written.get(key) or meanings.get(dotted)
             unused.discard(dotted)
             if meaning is None:
-                logger.warning("docs/guide/meanings.toml says nothing about the key %s of a vehicle file", dotted)
-            allowed = [_kind(field), allowed_range((key,), model)]
+                logger.warning("docs/guide/meanings.toml says nothing about the key %s of a %s", dotted, what)
+            allowed = [_kind(field), allowed_range((key,), table)]
             words = ", ".join(word for word in allowed if word) or "any number"
             unit = (UNITS.get(key) or unit_of(key) or "").replace("2", "²").replace("3", "³")
             yield f"| `{key}` | {unit} | {meaning} | {words} | {_default(field)} |\n"
     for dotted in sorted(unused):
-        logger.warning("docs/guide/meanings.toml describes %s, which no vehicle file has", dotted)
+        logger.warning("docs/guide/meanings.toml describes %s, which no %s has", dotted, what)
 
 
 def reference_page(package: str) -> str:
@@ -149,8 +172,9 @@ def _write(path: Path, text: str) -> None:
 def write_pages(app: Sphinx) -> None:
     """Write all generated pages."""
     folder = Path(app.srcdir) / "_generated"
-    meanings = tomllib.loads((Path(app.srcdir) / "guide" / "meanings.toml").read_text(encoding="utf-8"))["meaning"]
-    _write(folder / "vehicle-file.md", "".join(vehicle_tables(meanings)))
+    meanings = tomllib.loads((Path(app.srcdir) / "guide" / "meanings.toml").read_text(encoding="utf-8"))
+    _write(folder / "vehicle-file.md", "".join(file_tables(VehicleFile, meanings["meaning"], "vehicle file")))
+    _write(folder / "mission-file.md", "".join(file_tables(MissionFile, meanings["mission"], "mission file")))
     _write(folder / "validation.md", validation_report())
     packages = [f"stommel.{info.name}" for info in pkgutil.iter_modules(stommel.__path__) if info.ispkg]
     reference = folder / "reference"

@@ -139,14 +139,15 @@ def command(
         software.steering = 0.0
         r_px = plan.r_px_surface if not math.isnan(plan.r_px_surface) else _for_pitch(software, plan, table, state)
         return Commands(r_px, V_b, 0.0, laws.pitch.tolerance)
-    software.steering = _steer(software, table, laws.heading, wanted_pitch(state, plan), V_b, measured.psi)
     if state.phase == DRIFT:
+        software.steering = 0.0  # without way through the water nothing steers
         if t - software.drift_corrected_at >= laws.drift.period:
             software.drift_correction = drift_correction(
                 laws.drift, software.drift_correction, depth - plan.depth, software.vertical_speed
             )
             software.drift_corrected_at = t
-        return Commands(plan.r_px_drift, V_b + software.drift_correction, software.steering, laws.pitch.tolerance)
+        return Commands(plan.r_px_drift, V_b + software.drift_correction, 0.0, laws.pitch.tolerance)
+    software.steering = _steer(software, table, laws.heading, wanted_pitch(state, plan), V_b, measured.psi)
     _correct_pitch(software, plan, laws.pitch, state, t, measured)
     return Commands(_for_pitch(software, plan, table, state), V_b, software.steering, laws.pitch.tolerance)
 

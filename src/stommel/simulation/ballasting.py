@@ -1,18 +1,29 @@
 """Ballast of a mission: how the vehicle is trimmed before it, and how much oil its dives need."""
 
+from math import radians
+
 import numpy as np
 from numpy.typing import NDArray
 
 from stommel.analysis.trim import trim
+from stommel.dynamics.compilation import compiled
 from stommel.dynamics.equations import static_moment
 from stommel.dynamics.inertia import moving_mass_position
 from stommel.dynamics.packing import pack, reference_water
+from stommel.dynamics.state import Water
+from stommel.dynamics.vectors import Vector
 from stommel.errors import StommelError
+from stommel.ocean.column import fill_column
+from stommel.ocean.grid import RHO, TEMPERATURE, P, new_cell, new_column
 from stommel.simulation.mission import Mission
 from stommel.simulation.parameters import Plant
 from stommel.vehicle import PHYSICS, Vehicle
 
 Array = NDArray[np.float64]
+
+
+_DEPTHS = 41
+"""At which the water of a dive is looked at."""
 
 
 def ballasted(mission: Mission) -> Vehicle:
@@ -36,12 +47,22 @@ def ballasted(mission: Mission) -> Vehicle:
 def neutral_volumes(mission: Mission) -> Array:
     """Ballast volumes at which the vehicle is neutral from the surface to the dive depth, at the start [m3]."""
     plan, record = mission.plan, pack(mission.vehicle, PHYSICS[mission.plan.physics])
-    volumes = []
-    for depth in np.linspace(0.0, plan.dives.depth_m, 41):
-        here = mission.ocean.at(plan.start_seconds, plan.start.latitude_deg, plan.start.longitude_deg, float(depth))
-        hull = 1.0 - record.kappa * here.pressure + record.alpha_T * (here.temperature - record.T_0)
-        volumes.append(record.m / here.density - record.V_0 * hull)
-    return np.array(volumes)
+    water = _water_below(mission, plan.dives.depth_m)
+    hull = 1.0 - record.kappa * water[:, P] + record.alpha_T * (water[:, TEMPERATURE] - record.T_0)
+    volumes: Array = record.m / water[:, RHO] - record.V_0 * hull
+    return volumes
+
+
+def _water_below(mission: Mission, depth: float) -> Array:
+    """Rows of an ocean column from the surface to `depth` [m] at the start."""
+    plan, ocean = mission.plan, mission.ocean
+    latitude, longitude = plan.start.latitude_deg, plan.start.longitude_deg
+    ocean.at(plan.start_seconds, latitude, longitude, depth)  # says so if there is no such water
+    column = new_column(ocean.grid(), depth, depth / (_DEPTHS - 1))
+    fill_column(
+        ocean.grid(), ocean.table, plan.start_seconds, radians(latitude), radians(longitude), new_cell(), column
+    )
+    return column.values
 
 
 def drives(mission: Mission) -> tuple[float, float]:
@@ -88,8 +109,14 @@ def mass_position_at_rest(mission: Mission, plant: Plant, V_b: float, theta: flo
     """
     record, water = pack(mission.vehicle, PHYSICS[mission.plan.physics]), reference_water(mission.vehicle)
     # the moment is linear in the position: two looks tell it all
-    a, b = (static_moment(record, water, moving_mass_position(record, r_px, 0.0), V_b) for r_px in (0.0, 1.0))
+    a, b = (_moment_at_rest(record, water, r_px, V_b) for r_px in (0.0, 1.0))
     tangent = np.tan(theta)
     # at rest tan(theta) = -s_1 / s_3
     r_px = -(a[0] + tangent * a[2]) / ((b[0] - a[0]) + tangent * (b[2] - a[2]))
     return float(np.clip(r_px, plant.mass_low, plant.mass_high))
+
+
+@compiled
+def _moment_at_rest(vehicle: np.record, water: Water, r_px: float, V_b: float) -> Vector:
+    """Building blocks called one by one would be compiled anew in every process: they are kept within their callers."""
+    return static_moment(vehicle, water, moving_mass_position(vehicle, r_px, 0.0), V_b)

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 from stommel.analysis.flight_table import flight_table
 from stommel.dynamics.acceleration import state_of
 from stommel.dynamics.attitude import quaternion_from_euler
+from stommel.dynamics.compilation import compiled
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import Actuation
+from stommel.dynamics.vectors import Quaternion
 from stommel.ocean.grid import new_cell, new_column
 from stommel.simulation.memory import (
     CELL,
@@ -140,9 +142,15 @@ def _start(mission: Mission, plant: Plant) -> tuple[Array, np.record, np.record]
     theta = radians(plan.dives.pitch_deg)
     world.measured[:] = (theta, heading, 0.0)
     rest = (0.0, 0.0, 0.0)
-    Q = quaternion_from_euler(0.0, theta, heading)
+    Q = _wings_level(theta, heading)
     r_px = vehicle.description.moving_mass.neutral_position_m
     record = pack(vehicle, PHYSICS[plan.physics])
     state = state_of(record, rest, rest, rest, Q, r_px, plant.ballast_high, Actuation(), reference_water(vehicle))
     x = np.array([*state.X, *state.Q, *state.p, *state.h, state.r_px, state.p_px, state.V_b])
     return x, software, world
+
+
+@compiled
+def _wings_level(theta: float, heading: float) -> Quaternion:
+    """Attitude at pitch and heading [rad]; compiled here, so that its machine code is kept on disk."""
+    return quaternion_from_euler(0.0, theta, heading)

@@ -6,12 +6,10 @@ looked at together, and the first fall through zero is located on the integrator
 """
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import LSODA, Radau
-from scipy.optimize import brentq
 
 from stommel.design.engine.circuit_equations import FIRST_PRESSURE, evaluate, observe, piston_push
 from stommel.design.engine.network import (
@@ -27,6 +25,9 @@ from stommel.design.engine.network import (
     Network,
 )  # fmt: skip
 from stommel.errors import StommelError
+
+if TYPE_CHECKING:
+    from scipy.integrate import LSODA, Radau
 
 Array = NDArray[np.float64]
 
@@ -86,6 +87,8 @@ class Stepper:
                 f"engine: more than {_MOST_SEGMENTS} events up to {self.t:.3f} s: a valve flutters, or a piston sticks "
                 "and slips because its Stribeck friction falls faster with speed than its viscous friction grows"
             )
+        from scipy.integrate import LSODA, Radau  # noqa: PLC0415 - slow to import, and missions seldom need it
+
         solver = self._solver(LSODA, until)
         times, states, event = [self.t], [self.y], None
         before = self._event_values(self.y)
@@ -112,13 +115,15 @@ class Stepper:
         self.t, self.y = times[-1], rows[-1].copy()
         return event
 
-    def _solver(self, method: type[LSODA | Radau], until: float) -> LSODA | Radau:
+    def _solver(self, method: "type[LSODA | Radau]", until: float) -> "LSODA | Radau":
         """Integrator from the present time and state."""
         tolerance: Any = self._atol  # the stubs of Radau know only one number
         return method(self._rates, self.t, self.y, until, rtol=RTOL, atol=tolerance, max_step=LONGEST_STEP_S)
 
-    def _first(self, fallen: NDArray[np.intp], solver: LSODA | Radau) -> tuple[float, int]:
+    def _first(self, fallen: NDArray[np.intp], solver: "LSODA | Radau") -> tuple[float, int]:
         """Instant and number of the first of the events that happened within the last step."""
+        from scipy.optimize import brentq  # noqa: PLC0415 - slow to import
+
         course, begin, end = solver.dense_output(), float(solver.t_old or 0.0), float(solver.t)
 
         def located(j: int) -> float:

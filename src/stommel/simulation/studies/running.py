@@ -1,11 +1,14 @@
 """Who flies the runs: processes of this machine, or a Dask cluster. Both give the same records."""
 
+import atexit
 import logging
 import multiprocessing
 import os
+import pickle
 import re
 import signal
 import threading
+import zlib
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -55,7 +58,7 @@ def fly_here(kit: RunKit, tasks: Sequence[Task], workers: int, stop: threading.E
     """
     context = multiprocessing.get_context("spawn")
     with _environment(_ONE_THREAD):
-        pool = ProcessPoolExecutor(min(workers, len(tasks)), context, _prepare, (kit,))
+        pool = ProcessPoolExecutor(min(workers, len(tasks)), context, _prepare, (_packed(kit),))
         waiting: set[Future[Record]] = set()
         todo = iter(tasks)
         try:
@@ -92,10 +95,16 @@ def _environment(values: dict[str, str]) -> Iterator[None]:
                 os.environ[name] = value
 
 
-def _prepare(kit: RunKit) -> None:
+def _packed(kit: RunKit) -> bytes:
+    """Pack the kit so that a pipe takes it whole; else each worker would begin only once the one before has read it."""
+    return zlib.compress(pickle.dumps(kit))
+
+
+def _prepare(packed: bytes) -> None:
     """Begin a worker: it leaves Ctrl-C to its parent, and ends with it."""
     global _kit  # noqa: PLW0603 - one kit for the life of the process
-    _kit = kit
+    _kit = pickle.loads(zlib.decompress(packed))
+    atexit.register(os._exit, 0)  # there is nothing to save, and taking the interpreter down takes half a second
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 

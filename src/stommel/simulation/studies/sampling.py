@@ -6,8 +6,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
-from scipy.stats import qmc
 
 from stommel.simulation.studies.study_file import LATIN_HYPERCUBE, SOBOL, SWEEP, Parameter, StudyFile, Value
 
@@ -38,6 +36,8 @@ def unit_samples(kind: str, parameters: int, runs: int, seed: int) -> Array:
     """Points of the unit cube, (runs in all, parameters)."""
     rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(_SAMPLES,)))
     if kind == LATIN_HYPERCUBE:
+        from scipy.stats import qmc  # noqa: PLC0415 - slow to import, and workers do without
+
         return np.asarray(qmc.LatinHypercube(parameters, rng=rng).random(runs))
     if kind == SOBOL:
         from SALib.sample import sobol  # noqa: PLC0415 - loads pandas
@@ -74,6 +74,8 @@ def quantiles(parameter: Parameter, probability: Array) -> Array:
 
 
 def _law(parameter: Parameter) -> Any:
+    from scipy import stats  # noqa: PLC0415 - slow to import, and workers do without
+
     if parameter.distribution == "uniform":
         assert parameter.from_ is not None
         assert parameter.to is not None

@@ -1,13 +1,18 @@
 """Short missions that several tests fly; compiled code is shared by the process."""
 
 from collections.abc import Callable, Mapping
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
+from stommel.control.dive_cycle import EVENTS, PHASES
 from stommel.simulation.flight import Flown, fly_mission
 from stommel.simulation.loading import mission_from
+from stommel.simulation.memory import EVENT_COLUMNS, SAMPLE_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
 from stommel.simulation.mission import Mission
 from stommel.simulation.results import dataset_of, netcdf_bytes
 
@@ -20,6 +25,16 @@ QUIET: Document = {
     "gps_noise_m": 0.0,
 }
 """No noise."""
+
+EXACT: Document = QUIET | {
+    "altimeter_noise_m": 0.0,
+    "voltage_noise_v": 0.0,
+    "current_noise_a": 0.0,
+    "internal_pressure_noise_pa": 0.0,
+}
+"""No noise of any sensor but the CTD."""
+
+Array = NDArray[np.float64]
 
 
 def mission_document(**changes: Any) -> Document:
@@ -48,6 +63,34 @@ def flown(**changes: Any) -> Flown:
 
 def file_of(result: Flown) -> bytes:
     return netcdf_bytes(dataset_of(result))
+
+
+def column(result: Flown, name: str) -> Array:
+    """One column of the record."""
+    return np.asarray(result.record[:, STATE_COLUMNS.index(name)])
+
+
+def sampled(result: Flown, name: str) -> Array:
+    """One column of the CTD's samples."""
+    return np.asarray(result.samples[:, SAMPLE_COLUMNS.index(name)])
+
+
+def surfaced(result: Flown, name: str) -> Array:
+    """One column of the list of surfacings."""
+    return np.asarray(result.surfacings[:, SURFACING_COLUMNS.index(name)])
+
+
+def events(result: Flown) -> list[tuple[float, str, str]]:
+    """Time [s], phase that began, and reason of every event."""
+    names = ("time", "phase", "reason")
+    rows = result.events[:, [EVENT_COLUMNS.index(name) for name in names]]
+    return [(float(t), PHASES[int(phase)], EVENTS[int(reason)]) for t, phase, reason in rows]
+
+
+def stays(result: Flown, phase: str) -> list[tuple[float, float]]:
+    """Begin and end [s] of every completed stay in a phase; the mission begins at the surface."""
+    changes = [(0.0, "surface"), *((t, name) for t, name, _ in events(result))]
+    return [(t, then) for (t, name), (then, _) in pairwise(changes) if name == phase]
 
 
 @pytest.fixture(scope="session")

@@ -47,6 +47,9 @@ VERTICAL_FILTER = 0.1
 """Weight of a new depth difference in the vertical speed, per decision of one second."""
 
 
+DRIFT_TIME = 60.0
+"""Time between two positions that tell how the surface drifts [s]; the errors of both are over it."""
+
 AFLOAT = 0.5
 """A buoyant vehicle no deeper than this lies on the water and makes no way through it [m]."""
 
@@ -193,12 +196,12 @@ def reckon(
     weight, before, since = min(1.0, VERTICAL_FILTER * step), software.path_speed, t - software.since
     sinking = (1.0 - weight) * software.vertical_speed + weight * (depth - software.depth_before) / step
     software.vertical_speed = sinking
-    if depth < AFLOAT and V_b > 0.0:
-        software.path_speed = 0.0
-        return
     if software.phase == DRIFT:
         V_b = 0.0  # no glide to hold: the way it still has runs out
-    software.path_speed, V_h = path_speed(table, before, sinking, measured.theta, V_b, since, step)
+    if depth < AFLOAT and V_b > 0.0:
+        software.path_speed = V_h = 0.0  # the water alone carries it
+    else:
+        software.path_speed, V_h = path_speed(table, before, sinking, measured.theta, V_b, since, step)
     north, east = V_h * math.cos(measured.psi) * step, V_h * math.sin(measured.psi) * step
     software.reckoned_north += north
     software.reckoned_east += east
@@ -241,8 +244,9 @@ def leave_surface(software: np.record, t: float) -> float:
         return 0.0
     between = software.fix_at - software.first_fix_at
     m_north, m_east = metres_per_radian(software.fix_latitude)
-    drift_north = drift_east = 0.0
-    if between > 0.0:
+    # positions close together do not tell the drift: it is then that of the dives before
+    drift_north, drift_east = software.current_north, software.current_east
+    if between >= DRIFT_TIME:
         drift_north = (software.fix_latitude - software.first_fix_latitude) * m_north / between
         drift_east = wrapped(software.fix_longitude - software.first_fix_longitude) * m_east / between
     afloat = software.first_fix_at - software.surfaced_at

@@ -97,9 +97,9 @@ def test_arctic_mission_is_accepted(arctic20: Path) -> None:
         ({"waypoints": [AT_SEA, SPITSBERGEN]}, ["waypoints.1 = (78.5, 17)", "on land"]),
         ({"start": SPITSBERGEN}, ["start = (78.5, 17)", "on land"]),
         ({"waypoints": [AT_SEA | {"latitude_deg": 40.0}]}, ["waypoints.0 = (40, 10)", "outside the ocean"]),
-        ({"start_time": "2016-02-01T00:00:00Z"}, ["2016-02-01T00:00:00Z", "2016-02-01T12:00:00Z to 2016-02-05"]),
+        ({"start_time": "2016-02-01T00:00:00Z"}, ["time 2016-02-01T00:00:00Z is outside", "2016-02-01T12:00:00Z to"]),
         ({"duration_days": 3.6}, ["2016-02-05T12:00:00Z"]),
-        ({"start_time": "2020-01-01T00:00:00Z"}, ["2020-01-0", "2016-02-05T12:00:00Z"]),
+        ({"start_time": "2020-01-01T00:00:00Z"}, ["no times in the wanted interval", "2016-02-05T12:00:00Z"]),
     ],
     ids=["waypoint on land", "start on land", "waypoint outside", "begins too early", "ends too late", "years late"],
 )  # fmt: skip

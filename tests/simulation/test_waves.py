@@ -67,7 +67,7 @@ def lengths(found: Flown) -> list[float]:
 
 
 def test_first_position_comes_later_in_a_high_sea() -> None:
-    """In calm water the vehicle leaves after its session; in a high sea it takes longer until the antenna was dry 100 s."""
+    """In calm water it leaves after its session; in a high sea it takes longer until the antenna was dry for 100 s."""
     calm, rough = (
         flown(dives=SHALLOW, surface=PATIENT, sensors={"first_fix_s": 100.0}, waves={"significant_height_m": height})
         for height in (0.0, 15.0)

@@ -30,15 +30,18 @@ def _too_deep(mission: Mission) -> Iterator[Problem]:
 
 
 def _places(mission: Mission) -> Iterator[Problem]:
-    """Start and waypoints on land or outside the ocean."""
+    """Start and waypoints on land or outside the ocean; what is wrong with all of them, as the time, is said once."""
     plan = mission.plan
     places = {"start": plan.start} | {f"waypoints.{i}": place for i, place in enumerate(plan.waypoints)}
+    said = set()
     for key, place in places.items():
         try:
             mission.ocean.at(plan.start_seconds, place.latitude_deg, place.longitude_deg, 0.0)
         except StommelError as error:
             text = f"{key} = ({place.latitude_deg:g}, {place.longitude_deg:g}): {error}"
-            yield Problem(mission.origin, key, text)
+            if str(error) not in said:
+                yield Problem(mission.origin, key, text)
+            said.add(str(error))
 
 
 def _bottom(mission: Mission) -> Iterator[Problem]:

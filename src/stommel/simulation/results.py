@@ -167,8 +167,11 @@ def netcdf_bytes(dataset: "xr.Dataset") -> bytes:
 def _to_netcdf(dataset: "xr.Dataset", path: Path | None) -> memoryview:
     """NetCDF in the 64-bit classic form, times as seconds since 1970-01-01 UTC.
 
-    NetCDF 4 would be smaller, but the HDF5 below it stamps the root group with the time of writing: no two files alike.
+    Dimensions without any entry are left out. NetCDF 4 would be smaller, but the HDF5 below it stamps the root group
+    with the time of writing: no two files alike.
     """
+    # a length of zero means "unlimited" in the classic form, which knows one such dimension; others cannot read two
+    dataset = dataset.drop_dims([name for name, length in dataset.sizes.items() if length == 0])
     encoding = {str(name): _encoding(dataset, str(name)) for name in dataset.variables}
     written: Any = dataset.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT", encoding=encoding)
     return memoryview(b"" if written is None else written)

@@ -79,6 +79,22 @@ def unbroken(angles: Array) -> Array:
     return np.asarray(middle + (angles - middle + 180.0) % 360.0 - 180.0)
 
 
+_LEVELS = 50
+"""Cells over depth."""
+
+
+def mean_in_cells(time: Array, depth: Array, curve: Array, deepest: float, columns: int) -> tuple[Array, Array, Array]:
+    """Edges in time and depth, and the mean of a curve in each cell between them; not a number where it never was."""
+    edges, levels = np.linspace(time[0], time[-1], columns + 1), np.linspace(0.0, deepest, _LEVELS + 1)
+    i = np.clip(np.searchsorted(edges, time, side="right") - 1, 0, columns - 1)
+    j = np.clip(np.searchsorted(levels, depth, side="right") - 1, 0, _LEVELS - 1)
+    cell = j * columns + i
+    count = np.bincount(cell, minlength=_LEVELS * columns)
+    total = np.bincount(cell, weights=curve, minlength=_LEVELS * columns)
+    with np.errstate(invalid="ignore"):
+        return edges, levels, np.where(count > 0, total / count, np.nan).reshape(_LEVELS, columns)
+
+
 def thinned(time: Array, curve: Array, most: int) -> tuple[Array, Array]:
     """At most `most` points of a curve: the least and the greatest of each stretch, so that no peak is lost."""
     if len(time) <= most:

@@ -12,13 +12,16 @@ from numpy.typing import NDArray
 
 from stommel.control.dive_cycle import PHASES
 from stommel.simulation.parameters import CONSUMERS
-from stommel.simulation.pictures.extracts import positions, seconds, unbroken, values
+from stommel.simulation.pictures.extracts import first_dives, positions, seconds, unbroken, values
 from stommel.simulation.pictures.phases import SHADES
 
 Array = NDArray[np.float64]
 
 MOST_ROWS = 40_000
 """Rows in the page; of a longer record every so many."""
+
+FIRST_DIVES = 24
+"""What the page shows at first; more dives side by side are a solid block."""
 
 _MILLI, _WATT_HOUR, _KILO = 1e3, 1.0 / 3600.0, 1e-3
 
@@ -32,6 +35,7 @@ def interactive_page(dataset: xr.Dataset) -> str:
         "time": _encoded((part["time"].values - part["time"].values[0]) / np.timedelta64(1, "ns") / 1e9),
         "phase": _encoded(part["phase"].values),
         "phases": list(PHASES),
+        "first_view": float(seconds(first_dives(dataset, FIRST_DIVES))[-1]),
         "shades": [SHADES[name] for name in PHASES],
         "panels": _panels(part) + _sampled(dataset) + _energy(part),
         "track": dict(zip(("east", "north"), map(_encoded, positions(part)), strict=True)),

@@ -8,7 +8,15 @@ from numpy.typing import NDArray
 
 from stommel.control.dive_cycle import PHASES
 from stommel.design.plots.style import INK, MUTED, VERMILION, new_figure, styled
-from stommel.simulation.pictures.extracts import date, dives_begun, first_dives, fitting_unit, seconds, values
+from stommel.simulation.pictures.extracts import (
+    date,
+    dives_begun,
+    first_dives,
+    fitting_unit,
+    mean_in_cells,
+    seconds,
+    values,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -47,8 +55,10 @@ def _panel(axes: "Axes", part: xr.Dataset, limits: tuple[float, float], *, with_
     time, depth = seconds(part), values(part, "depth")
     span, deepest = float(time[-1]), max(1.04 * float(depth.max()), 1e-3)
     unit, length = fitting_unit(span)
-    edges, levels, mean = _cells(time, depth, values(part, "density"), deepest)
-    axes.pcolormesh(edges / length, levels, mean, cmap="YlGnBu", vmin=limits[0], vmax=limits[1], rasterized=True)
+    columns = min(160, max(8, len(time) // 60))
+    edges, levels, mean = mean_in_cells(time, depth, values(part, "density"), deepest, columns)
+    filled = np.array([_filled(row) for row in mean])
+    axes.pcolormesh(edges / length, levels, filled, cmap="YlGnBu", vmin=limits[0], vmax=limits[1], rasterized=True)
     if with_path:
         axes.plot(time / length, depth, color=INK, linewidth=1.0)
         _drift(axes, part, time / length, depth)
@@ -73,22 +83,8 @@ def _drift(axes: "Axes", part: xr.Dataset, time: Array, depth: Array) -> None:
         axes.legend(loc="lower right", framealpha=0.85, frameon=True)
 
 
-def _cells(time: Array, depth: Array, density: Array, deepest: float) -> tuple[Array, Array, Array]:
-    """Mean density in cells of time and depth; cells that no dive crossed take the last value before them."""
-    columns, rows = min(160, max(8, len(time) // 60)), 50
-    edges, levels = np.linspace(time[0], time[-1], columns + 1), np.linspace(0.0, deepest, rows + 1)
-    i = np.clip(np.searchsorted(edges, time, side="right") - 1, 0, columns - 1)
-    j = np.clip(np.searchsorted(levels, depth, side="right") - 1, 0, rows - 1)
-    cell = j * columns + i
-    count = np.bincount(cell, minlength=rows * columns)
-    total = np.bincount(cell, weights=density, minlength=rows * columns)
-    with np.errstate(invalid="ignore"):
-        mean = np.where(count > 0, total / count, np.nan).reshape(rows, columns)
-    return edges, levels, np.array([_filled(row) for row in mean])
-
-
 def _filled(row: Array) -> Array:
-    """A row of cells with its gaps filled from the left, and the first from the right."""
+    """A row of cells where those that no dive crossed take the last value before them, the first the next."""
     known = np.flatnonzero(np.isfinite(row))
     if len(known) == 0:
         return row

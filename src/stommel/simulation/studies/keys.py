@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 from stommel.errors import StommelError
 from stommel.ocean.analytic import ANALYTIC
+from stommel.ocean.profile import ProfileOcean
 from stommel.simulation.mission_file import MissionFile
 from stommel.simulation.studies.errors import StudyError
 from stommel.simulation.studies.kit import RunKit, Target, put
@@ -48,7 +49,11 @@ def key_problems(parameter: Parameter, kit: RunKit) -> Iterator[str]:
         listed = f" Known: {', '.join(words)}" if len(words) <= 30 else ""
         yield f"parameters: key = {key!r}: {_whose(space, kit)} has no such number{hint}{listed}"
         return
-    for value in _representatives(parameter):
+    values = _representatives(parameter)
+    if _whole(target, kit) and (parameter.distribution is not None or any(_fraction(value) for value in values)):
+        yield f"parameters: {key}: is a whole number; change it in a sweep, such as values = [1, 2]"
+        return
+    for value in values:
         try:
             _try(kit, target, value)
         except StommelError as error:
@@ -71,11 +76,32 @@ def _known(target: Target, kit: RunKit) -> list[Any] | None:
     if target[:2] == ("ocean", "parameters"):
         if ("ocean", "name") in kit.targets:
             return None
-        name = kit.document["ocean"]["name"]
-        return list(ANALYTIC[name].model_fields) if name is not None else []
+        return [*_numbers_of(kit.document["ocean"]), *OCEAN_KEYS]
     if target[0] == "ocean":
         return list(OCEAN_KEYS)
     return [path for path in _leaves(kit.document) if path[0] != "sensors" or target[0] == "sensors"]
+
+
+def _numbers_of(ocean: dict[str, Any]) -> list[str]:
+    """Names of the numbers of an analytic ocean or of a profile's; gridded files have none."""
+    if ocean["name"] is not None:
+        return list(ANALYTIC[ocean["name"]].model_fields)
+    profile = isinstance(ocean["file"], str) and ocean["file"].endswith(".csv")
+    return list(ProfileOcean.model_fields) if profile else []
+
+
+def _whole(target: Target, kit: RunKit) -> bool:
+    """Whether a whole number of the mission file stands there; the seeds and counts among them."""
+    if target[0] in ("changes", "ocean"):
+        return False
+    here: Any = kit.document
+    for part in target:
+        here = here[int(part)] if isinstance(here, list) else here[part]
+    return isinstance(here, int) and not isinstance(here, bool)
+
+
+def _fraction(value: Value) -> bool:
+    return isinstance(value, float) and not value.is_integer()
 
 
 def _leaves(here: Any, path: Target = ()) -> Iterator[Target]:

@@ -192,8 +192,11 @@ def write_result(dataset: "xr.Dataset", path: Path) -> None:
             else:
                 dataset.to_netcdf(made, format="NETCDF4", engine="netcdf4")
                 write_whole(path, made.read_bytes())
-    except (OSError, RuntimeError) as error:
-        raise OutputError(f"{path}: cannot be written: {getattr(error, 'strerror', None) or error}") from error
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
+    except RuntimeError as error:  # the NetCDF library does not say why
+        free = shutil.disk_usage(path.parent).free / 1e6
+        raise OutputError(f"{path}: cannot be written: {error}; the disk has {free:.3g} MB left") from error
 
 
 def _replace_folder(made: Path, path: Path, before: Path) -> None:

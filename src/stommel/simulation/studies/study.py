@@ -122,15 +122,20 @@ def _vehicle(name: str, folder: Path) -> Vehicle:
     return load_vehicle(beside if beside.is_file() else name)
 
 
+_TAKEN = ("run", "repeat", "output", "parameter", "seed", "outcome", "failure")
+"""Names that the result has anyway."""
+
+
 def _names(file: StudyFile, origin: str) -> tuple[str, ...]:
     """Name every parameter: as asked, or by the last part of its key, or by all of it where that is not unique."""
     short = [_identifier(parameter.key.rsplit(".", 1)[-1]) for parameter in file.parameters]
     names = [
-        parameter.name or (own if short.count(own) == 1 and not own[0].isdigit() else _identifier(parameter.key))
+        parameter.name
+        or (own if short.count(own) == 1 and own not in _TAKEN and not own[0].isdigit() else _identifier(parameter.key))
         for parameter, own in zip(file.parameters, short, strict=True)
     ]
     for name in names:
-        if names.count(name) > 1 or name in ("run", "repeat", "output", "parameter"):
+        if names.count(name) > 1 or name in _TAKEN:
             text = f"parameters: name = {name!r}: is taken; give the parameter another name"
             raise FileError([Problem(origin, "parameters", text)])
     return tuple(names)

@@ -70,6 +70,14 @@ def test_more_drive_than_the_engine_has_is_refused() -> None:
         flown(dives={"depth_m": 100.0, "pitch_deg": 35.0, "ballast_ml": 300.0})
 
 
+def test_trim_far_from_the_water_of_the_dives_is_refused() -> None:
+    """Neutral at 300 m in a stratified sea, the vehicle would sink with 57 ml of oil outside."""
+    with pytest.raises(
+        StommelError, match=r"test\.toml: ballasting\.neutral_depth_m: .* dive with 57 and climb with 225"
+    ):
+        flown(ballasting={"neutral_depth_m": 300.0})
+
+
 AT_SEA: Document = {"latitude_deg": 72.0, "longitude_deg": 10.0}
 SPITSBERGEN: Document = {"latitude_deg": 78.5, "longitude_deg": 17.0}
 

@@ -87,7 +87,8 @@ def ballast_volumes(mission: Mission, plant: Plant) -> tuple[float, float]:
     Raises
     ------
     StommelError
-        The density of the water varies more than the buoyancy engine can follow.
+        The density of the water varies more than the buoyancy engine can follow, or the vehicle is trimmed so far from
+        it that it would dive with oil outside: the flight software takes the sign of the volume for the way.
     """
     dives, (drive_down, drive_up) = mission.plan.dives, drives(mission)
     neutral = neutral_volumes(mission)
@@ -98,6 +99,12 @@ def ballast_volumes(mission: Mission, plant: Plant) -> tuple[float, float]:
             f"{neutral.min() * 1e6:.0f} to {neutral.max() * 1e6:.0f} ml; with the wanted drive the engine needs "
             f"{down * 1e6:.0f} to {up * 1e6:.0f} ml and has {plant.ballast_low * 1e6:.0f} to "
             f"{plant.ballast_high * 1e6:.0f} ml: dive slower, shallower, or set ballasting.neutral_depth_m"
+        )
+    if down >= 0.0 or up <= 0.0:
+        raise StommelError(
+            f"{mission.origin}: ballasting.neutral_depth_m: trimmed there, it would dive with {down * 1e6:.0f} "
+            f"and climb with {up * 1e6:.0f} ml; needed are less and more than 0 ml: choose a depth between 0 and "
+            f"{dives.depth_m:g} m, or leave it out"
         )
     return down, up
 

@@ -1,10 +1,13 @@
 """A study that cannot be run is refused with one line that says why, before anything is flown."""
 
+import resource
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-from tests.studies.conftest import UNIFORM, Write, refused
+from tests.studies.conftest import UNIFORM, Write, refused, run
 
 SWEEP = 'kind = "sweep"\n[[parameters]]\n'
 
@@ -33,6 +36,17 @@ SWEEP = 'kind = "sweep"\n[[parameters]]\n'
         ('kind = "monte_carlo"\nruns = 3\n' + UNIFORM.replace("uniform", "cauchy"), ["'cauchy'", "lognormal"]),
         ('kind = "monte_carlo"\nruns = 3\n' + UNIFORM.replace("to = 45", ""), ["needs from and to"]),
         ('kind = "monte_carlo"\nruns = 3\n' + UNIFORM.replace("to = 45", "to = 2"), ["from must be less than to"]),
+        (
+            'kind = "monte_carlo"\nruns = 3\n' + UNIFORM.replace("pitch_deg", "per_surfacing"),
+            ["mission.dives.per_surfacing", "is a whole number", "sweep"],
+        ),
+        (
+            SWEEP + 'key = "mission.dives.per_surfacing"\nfrom = 1\nto = 2\nsteps = 3',
+            ["mission.dives.per_surfacing", "is a whole number"],
+        ),
+        (SWEEP + 'key = "mission.seed"\nname = "seed"\nvalues = [1, 2]', ["name = 'seed'", "is taken"]),
+        (SWEEP + 'key = "mission.ctd.cell_shares"\nvalues = [0]', ["did you mean mission.ctd.cell_share"]),
+        (SWEEP + 'key = "ocean.blend_kn"\nvalues = [1]', ["did you mean ocean.blend_km"]),
         ("kind = ", ["is not valid TOML"]),
     ],
 )
@@ -80,3 +94,46 @@ def test_unknown_output_is_found_with_the_first_run(folder: Path, write: Write) 
     message = refused(folder, study, "--workers", 1)
     assert "'fuel'" in message
     assert "dives" in message
+
+
+def limited(folder: Path, most_bytes: int, *arguments: object) -> str:
+    """One line of a study whose files may not grow beyond a size: the same calls fail as on a full disk."""
+    program = Path(sys.executable).with_name("stommel")
+    done = subprocess.run(
+        [program, "study", *map(str, arguments)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes)),
+    )
+    assert done.returncode == 2, done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1, done.stderr
+    return done.stderr
+
+
+def test_full_disk_leaves_nothing_half_written_and_the_study_goes_on(folder: Path, write: Write) -> None:
+    study = write('kind = "monte_carlo"\nruns = 4\n' + UNIFORM)
+    run(folder, study, "--workers", 1, "--output", "whole.nc")
+    for name in ("full.nc", "full.zarr"):
+        # room for a few records, not for one
+        error = limited(folder, 600, study, "--workers", 1, "--output", name)
+        assert f"{name}.runs/0000/0000000.json: cannot be written: File too large" in error
+        assert not (folder / name).exists()
+        assert not list((folder / f"{name}.runs").glob("*/*"))
+        # room for the records, not for the result
+        error = limited(folder, 4000, study, "--workers", 1, "--output", name)
+        assert f"{name}: cannot be written: " in error
+        assert not (folder / name).exists()
+        assert len(list((folder / f"{name}.runs").glob("*/*.json"))) == 4
+        done = run(folder, study, "--workers", 1, "--output", name)
+        assert (done["flown"], done["kept"]) == (0, 4)
+        assert not [path for path in folder.iterdir() if path.name.startswith(".")]
+    assert (folder / "full.nc").read_bytes() == (folder / "whole.nc").read_bytes()
+
+
+def test_unwritable_folder(folder: Path, write: Write) -> None:
+    study = write('kind = "monte_carlo"\nruns = 3\n' + UNIFORM)
+    assert "hop.toml/r.nc.runs: cannot be written: Not a directory" in refused(
+        folder, study, "--output", "hop.toml/r.nc"
+    )

@@ -143,3 +143,48 @@ def test_on_a_dask_cluster_that_loses_a_worker(folder: Path, write: Write) -> No
     assert before < 24
     assert json.loads(out)["flown"] == 24
     assert (folder / "there.nc").read_bytes() == (folder / "here.nc").read_bytes()
+
+
+def test_any_field_of_vehicle_mission_sensors_and_ocean(folder: Path, write: Write) -> None:
+    """Each value reaches its run: the result shows what it does."""
+    study = write(
+        'kind = "sweep"\nsame_noise = true\n'
+        + "".join(
+            f'[[parameters]]\nkey = "{key}"\nvalues = {values}\n'
+            for key, values in {
+                "mission.leak.rate_ml_min": "[0, 200]",
+                "mission.sampling.every_s": "[10, 20]",
+                "vehicle.hydrodynamics.drag_kg_m": "[2.5, 3.5]",
+                "ocean.blend_km": "[10]",
+                "mission.seed": "[1, 2]",
+                "mission.physics": '["full", "paper"]',
+            }.items()
+        )
+    )
+    run(folder, study, "--workers", 1, "--output", "r.nc")
+    result = xr.load_dataset(folder / "r.nc")
+    assert result.dives.dims == ("rate_ml_min", "every_s", "drag_kg_m", "blend_km", "mission_seed", "physics")
+    assert (result.failure == "").all()
+    assert (result.outcome.sel(rate_ml_min=200) == "aborted, waiting at the surface").all()
+    assert (result.outcome.sel(rate_ml_min=0) == "time over").all()
+    tight = result.sel(rate_ml_min=0, blend_km=10)
+    assert (tight.deepest_m.sel(drag_kg_m=3.5) < tight.deepest_m.sel(drag_kg_m=2.5) + 0.5).all()
+    assert (
+        tight.distance_through_water_km.sel(drag_kg_m=3.5) < tight.distance_through_water_km.sel(drag_kg_m=2.5)
+    ).all()
+    assert (tight.seed.sel(mission_seed=2) == 2).all()
+    assert (tight.reckoning_error_m_mean.sel(mission_seed=1) != tight.reckoning_error_m_mean.sel(mission_seed=2)).all()
+    assert tight.ctd_samples.sel(every_s=10).values == pytest.approx(
+        2.0 * tight.ctd_samples.sel(every_s=20).values, abs=9
+    )
+
+
+def test_numbers_of_a_profile_can_be_changed(folder: Path, write: Write) -> None:
+    (folder / "water.csv").write_text("depth_m,temperature_c,salinity_psu\n0,28,33.5\n50,26,34\n200,15,34.6\n")
+    mission = folder / "hop.toml"
+    mission.write_text(mission.read_text().replace('name = "uniform"', 'file = "water.csv"'))
+    study = write('kind = "sweep"\n[[parameters]]\nkey = "ocean.current_east_m_s"\nvalues = [0.0, 0.2]\n')
+    done = run(folder, study, "--workers", 1, "--output", "r.nc")
+    assert done["failed"] == []
+    result = xr.load_dataset(folder / "r.nc")
+    assert float(result.distance_over_ground_km[1]) > float(result.distance_over_ground_km[0]) + 0.1

@@ -17,7 +17,7 @@ from stommel.simulation.studies.running import cores
 from stommel.simulation.studies.study import load_study
 
 RUNS = 1000
-ROUNDS = 3
+ROUNDS = 2
 QUIET = 0.02
 """Share of the machine's processor time that others may take from a measurement."""
 

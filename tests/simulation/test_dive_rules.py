@@ -76,3 +76,11 @@ def test_deaf_altimeter_touches_the_bottom_and_comes_off() -> None:
     assert column(found, "depth").max() == pytest.approx(100.0)
     assert len(stays(found, "surface")) > 3
     assert found.outcome == "time over"
+
+
+def test_a_pressure_sensor_that_never_says_shallow_does_not_keep_it_from_calling() -> None:
+    """With 5 m too much on the sensor the vehicle lies at the surface and waits for the limit of a dive, not for ever."""
+    found = flown(sensors=EXACT | {"pressure_bias_m": 5.0}, abort={"dive_hours": 0.5})
+    begin, end = stays(found, "ascent")[0]
+    assert end - begin == pytest.approx(1800.0, abs=2.0)
+    assert len(found.surfacings) >= 2

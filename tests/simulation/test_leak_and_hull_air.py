@@ -91,3 +91,18 @@ def test_lost_vacuum_ends_the_mission() -> None:
     assert (phase, reason) == ("inflection", "abort: pressure inside the hull")
     assert by_pressure[1].outcome == "time over"
     assert 59.2e3 < column(by_pressure[1], "internal_pressure").max() < 59.7e3
+
+
+def test_a_leak_that_wins_loses_the_vehicle() -> None:
+    """Oracle: the hull's rating of 200 m times its safety factor of 2; a plan that forbids nothing and a large leak."""
+    sea = {"name": "still", "parameters": {"bottom_m": 2000.0}}
+    found = flown(ocean=sea, dives=BALLAST, leak={"rate_ml_min": 100.0}, abort={"leak": False, "depth_m": 5000.0})
+    assert found.outcome == "lost: deeper than the hull bears"
+    assert column(found, "depth").max() == pytest.approx(400.0, abs=10.0)
+
+
+def test_on_the_bottom_a_sinking_vehicle_stays() -> None:
+    sea = {"name": "still", "parameters": {"bottom_m": 190.0}}
+    found = flown(ocean=sea, dives=BALLAST, leak={"rate_ml_min": 100.0}, abort={"leak": False, "depth_m": 5000.0})
+    assert found.outcome == "time over"
+    assert column(found, "depth")[-1] == pytest.approx(190.0)

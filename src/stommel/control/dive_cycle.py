@@ -155,7 +155,8 @@ def _climbing(state: DiveState, plan: DivePlan, t: float, readings: Readings) ->
         return DiveState(
             float(DESCENT), t, state.submerged_since, state.dives + 1.0, state.dives_here + 1.0, state.event
         )
-    if readings.depth <= plan.shallow_depth:
+    # a pressure sensor that never says shallow must not keep the vehicle from calling
+    if readings.depth <= plan.shallow_depth or t - state.since > plan.abort_time:
         return _enter(state, SURFACE, t, int(state.event))
     return state
 

@@ -83,7 +83,7 @@ def fly_mission(mission: Mission, *, progress: Progress | None = None) -> Flown:
     loop = loop_of(mission, vehicle, dives)
     ticks = round(plan.duration_days * 86400.0 / loop.control_step)
     sensors = sensors_of(plan)
-    equipment = Equipment(vehicle, plant, sensors, hull_of(plan))
+    equipment = Equipment(vehicle, plant, sensors, hull_of(mission))
     orders = orders_of(mission, plant, dives, flight_table(mission.vehicle, physics=PHYSICS[plan.physics]))
     grid = mission.ocean.grid()
     sea = Sea(grid, mission.ocean.table, waves_of(mission))

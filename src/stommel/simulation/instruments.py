@@ -103,6 +103,8 @@ class Hull(NamedTuple):
     """Time of the mission [s]; infinite for a tight hull."""
     leak_rate: float
     """[m3/s]"""
+    deepest: float
+    """Depth at which the hull is given up for lost [m]."""
 
 
 class Alarms(NamedTuple):

@@ -57,7 +57,7 @@ from stommel.simulation.writing import write_event, write_row, write_sample, wri
 GUIDANCE_PERIOD = 10.0
 """Between two looks at the waypoint [s]."""
 
-RUNNING, FINISHED, OUT_OF_BATTERY, OUT_OF_OCEAN, ASHORE, NOT_FINITE, ABORTED = range(7)
+RUNNING, FINISHED, OUT_OF_BATTERY, OUT_OF_OCEAN, ASHORE, NOT_FINITE, ABORTED, LOST = range(8)
 OUTCOMES = (
     "time over",
     "mission complete",
@@ -66,6 +66,7 @@ OUTCOMES = (
     "aground",
     "the flight became unphysical",
     "aborted, waiting at the surface",
+    "lost: deeper than the hull bears",
 )
 """How a mission ended."""
 
@@ -206,6 +207,8 @@ def fly(
         advance(equipment, x, k, trial, software, world, done, loop, column, t)
         if not math.isfinite(x[2]) or not math.isfinite(x[7]):
             return NOT_FINITE
+        if x[2] > equipment.hull.deepest:
+            return LOST
         if world.energy_total + plant.self_discharge * t > plant.battery_energy:
             return OUT_OF_BATTERY
         if software.phase == RECOVERY and t - software.since >= plan.surface_time:

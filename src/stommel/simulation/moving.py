@@ -95,6 +95,9 @@ def advance(  # type: ignore[no-untyped-def]  # compiled only
         U = water_at(column, 0.0, age).U
         x[0] += U[0] * step
         x[1] += U[1] * step
+    elif _lies_on_the_bottom(vehicle, x, column, age):
+        x[13] += done.r_px_dot * step
+        x[15] += u_b * step
     else:
         if done.r_px_dot != 0.0 or done.u_b != 0.0 or mu_dot != 0.0:
             world.moved_at = t
@@ -122,6 +125,12 @@ def _floats(vehicle, x, column, age, software):  # type: ignore[no-untyped-def] 
     """Whether the vehicle lies on the water: it is buoyant, and has come up, or waits there."""
     limit = AFLOAT_DEPTH if software.phase in (SURFACE, RECOVERY) else 0.0
     return x[2] <= limit and net_weight(vehicle, water_at(column, x[2], age), x[15]) < 0.0
+
+
+@inlined
+def _lies_on_the_bottom(vehicle, x, column, age):  # type: ignore[no-untyped-def]  # compiled only
+    """Whether the vehicle rests on the ground, heavier than its water."""
+    return x[2] >= column.place[BOTTOM] and net_weight(vehicle, water_at(column, x[2], age), x[15]) > 0.0
 
 
 @inlined

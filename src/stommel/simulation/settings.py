@@ -109,9 +109,12 @@ def _weight(step: float, time_constant: float) -> float:
     return 1.0 - exp(-step / time_constant) if time_constant > 0.0 else 1.0
 
 
-def hull_of(plan: MissionFile) -> Hull:
-    """Air and leak of the hull."""
-    air, leak = plan.hull_air, plan.leak
+def hull_of(mission: Mission) -> Hull:
+    """Air and leak of the hull, and how deep it may sink: as many times its rating as its safety factor says."""
+    air, leak, hull = mission.plan.hull_air, mission.plan.leak, mission.vehicle.description.hull
+    deepest = inf
+    if hull is not None and hull.depth_rating_m is not None:
+        deepest = hull.circumferential_safety_factor * hull.depth_rating_m
     return Hull(
         air_pressure=air.pressure_kpa * 1e3,
         air_temperature=air.temperature_c + KELVIN,
@@ -119,6 +122,7 @@ def hull_of(plan: MissionFile) -> Hull:
         temperature_weight=_weight(GUIDANCE_PERIOD, air.settle_minutes * 60.0),
         leak_starts=leak.after_hours * 3600.0 if leak.rate_ml_min > 0.0 else inf,
         leak_rate=leak.rate_ml_min / 1e6 / 60.0,
+        deepest=deepest,
     )
 
 

@@ -30,7 +30,7 @@ def antenna_emerges(waves: Waves, antenna: Vector, theta: float, t: float) -> bo
 @inlined
 def fill_with_water(hull: Hull, world: np.record, t: float, step: float) -> float:
     """Let the leak run for one control step; returns how fast ballast volume is lost [m3/s]."""
-    if t < hull.leak_starts:
+    if t < hull.leak_starts or world.leaked >= hull.air_volume:
         return 0.0
     world.leaked += hull.leak_rate * step
     return hull.leak_rate

@@ -1,5 +1,6 @@
 """Reading vehicle files, the built-in ones and the user's."""
 
+import difflib
 import os
 import tomllib
 from collections.abc import Mapping
@@ -166,10 +167,12 @@ def _last(key: str) -> str | int:
 
 
 def _not_a_number(vehicle: Vehicle, key: str) -> FileError:
-    known = ", ".join(name for name, _ in numbers(vehicle.document))
-    return FileError(
-        [Problem(vehicle.origin, key, f"{key}: no number of this vehicle has this key; there are: {known}")]
-    )
+    known = [name for name, _ in numbers(vehicle.document)]
+    table = key.split(".", maxsplit=1)[0]
+    near = difflib.get_close_matches(key, known, 3, 0.6) or [name for name in known if name.split(".")[0] == table][:8]
+    hint = f"; near it are {', '.join(near)}" if near else ""
+    text = f"{key}: no number of {vehicle.name} has this key{hint}; `stommel vehicle show` lists all {len(known)}"
+    return FileError([Problem(vehicle.origin, key, text)])
 
 
 def _document_with(vehicle: Vehicle, key: str) -> Mapping[str, Any]:

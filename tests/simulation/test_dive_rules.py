@@ -79,7 +79,7 @@ def test_deaf_altimeter_touches_the_bottom_and_comes_off() -> None:
 
 
 def test_a_pressure_sensor_that_never_says_shallow_does_not_keep_it_from_calling() -> None:
-    """With 5 m too much on the sensor the vehicle lies at the surface and waits for the limit of a dive, not for ever."""
+    """With 5 m too much on the sensor the vehicle waits at the surface for the limit of a dive, not for ever."""
     found = flown(sensors=EXACT | {"pressure_bias_m": 5.0}, abort={"dive_hours": 0.5})
     begin, end = stays(found, "ascent")[0]
     assert end - begin == pytest.approx(1800.0, abs=2.0)

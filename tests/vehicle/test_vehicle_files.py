@@ -214,5 +214,5 @@ def test_with_value_of_a_field_left_at_its_default() -> None:
     full = vehicle_from_text(changed("[4, 12, 11]", "[[4, 0, 0], [0, 12, 0], [0, 0, 11]]"), "my.toml")
     tensor = full.with_value("rigid_body.inertia_kg_m2.0.2", 0.5).description.rigid_body.inertia_kg_m2
     assert tensor[0][2] == tensor[2][0] == 0.5
-    with pytest.raises(FileError, match="no number of .* has this key"):
+    with pytest.raises(FileError, match=r"no number of .* has this key"):
         zju.with_value("moving_mass.colour", 1.0)

@@ -22,8 +22,8 @@ PITCHES_DEG = tuple(float(pitch) for pitch in range(5, 62, 3))
 SHARES = tuple(k / 16 for k in range(1, 17))
 """Of the largest ballast volume."""
 
-_RUDDER, _ROLL = 2, 3
-"""Columns of the inputs that steer."""
+_COLUMNS = {"rudder": 2, "roll": 3}
+"""Of the inputs that steer."""
 
 _KEPT = 8
 _tables: dict[tuple[bytes, int | None, float, Water], FlightTable] = {}
@@ -59,9 +59,7 @@ def _steering(vehicle: Vehicle) -> int | None:
     d = vehicle.description
     if list(d.unknown_lateral()):
         return None
-    if d.rudder is not None and d.actuators.rudder is not None:
-        return _RUDDER
-    return _ROLL if d.actuators.roll is not None else None
+    return _COLUMNS[d.steers_by] if d.steers_by is not None else None
 
 
 def _computed(vehicle: Vehicle, record: np.record, most: float, water: Water) -> FlightTable:

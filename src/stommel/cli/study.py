@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stommel.cli import INTERRUPTED
 from stommel.cli.options import JsonOption
 from stommel.cli.output import show_json, show_table
 
@@ -47,7 +48,7 @@ def study(
             done = run_study(loaded, target, workers=workers, scheduler=scheduler, restart=restart, progress=progress)
     except StudyInterruptedError as error:
         typer.echo(str(error), err=True)
-        raise typer.Exit(130) from None
+        raise typer.Exit(INTERRUPTED) from None
     if as_json:
         show_json(_as_json(done, target))
     else:

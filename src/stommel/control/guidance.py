@@ -2,6 +2,7 @@
 
 import math
 
+from stommel.control.laws import wrapped
 from stommel.dynamics.compilation import compiled, inlined
 
 SEMI_MAJOR, FLATTENING = 6378137.0, 1.0 / 298.257223563
@@ -21,9 +22,7 @@ def metres_per_radian(latitude: float) -> tuple[float, float]:
 def to_waypoint(latitude: float, longitude: float, goal_latitude: float, goal_longitude: float) -> tuple[float, float]:
     """North and east metres to a waypoint, on the ellipsoid at mid latitude; good to 1e-4 within 100 km."""
     m_north, m_east = metres_per_radian(0.5 * (latitude + goal_latitude))
-    turn = goal_longitude - longitude
-    turn = math.atan2(math.sin(turn), math.cos(turn))
-    return (goal_latitude - latitude) * m_north, turn * m_east
+    return (goal_latitude - latitude) * m_north, wrapped(goal_longitude - longitude) * m_east
 
 
 @compiled

@@ -40,6 +40,11 @@ Region: TypeAlias = tuple[float, float, float, float]
 """South, north, west, east [deg]."""
 
 
+def is_profile(source: "Source | None") -> bool:
+    """Whether a source is one profile file: its name ends in .csv."""
+    return isinstance(source, str | Path) and Path(source).suffix.lower() == ".csv"
+
+
 @dataclass(frozen=True)
 class Sample:
     """The water at one point; SI units unless noted."""

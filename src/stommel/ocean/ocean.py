@@ -70,7 +70,10 @@ class Ocean:
         at_rest: bool = False,
         parameters: Mapping[str, Any] | None = None,
     ) -> Self:
-        """Read an ocean from CF NetCDF files, or from a profile (a file that ends in .csv, see `from_profile`).
+        """Read an ocean from CF NetCDF files, or from a profile.
+
+        A profile is a .csv file for `stommel.seawater.read_stratification`; its layers then stand everywhere, in a
+        steady current.
 
         Parameters
         ----------
@@ -103,7 +106,8 @@ class Ocean:
         at_rest
             Read no currents: the water is at rest, as in a climatology of temperature and salinity alone.
         parameters
-            Numbers of a profile's ocean, see `from_profile`.
+            Numbers of a profile's ocean: `latitude_deg`, `longitude_deg`, `bottom_m`, `current_east_m_s`,
+            `current_north_m_s`.
 
         Raises
         ------
@@ -123,29 +127,6 @@ class Ocean:
         return cls(*found).with_outside(
             outside, outside_time, climatology=climatology, blend_km=blend_km, blend_h=blend_h, folder=folder
         )
-
-    @classmethod
-    def from_profile(cls, path: str | Path, *, columns: Mapping[str, str] | None = None, **parameters: Any) -> Self:
-        """Make an ocean that has the layers of a profile file everywhere, in a steady current.
-
-        Parameters
-        ----------
-        path
-            A file for `stommel.seawater.read_stratification`.
-        columns
-            Its own names of columns.
-        parameters
-            `latitude_deg`, `longitude_deg`, `bottom_m`, `current_east_m_s`, `current_north_m_s`.
-
-        Raises
-        ------
-        FileError, UnknownOceanError
-            The file cannot be used, or a parameter is unknown or not allowed.
-        """
-        from stommel.ocean.profile import read_profile_ocean  # noqa: PLC0415 - as analytic oceans
-
-        data, notes = read_profile_ocean(Path(path), dict(columns or {}), parameters)
-        return cls(str(path), data, notes)
 
     @classmethod
     def analytic(cls, name: str, **parameters: Any) -> Self:

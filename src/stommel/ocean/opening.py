@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from stommel.ocean.answers import Region, Source
+from stommel.ocean.answers import Region, Source, is_profile
 from stommel.ocean.errors import UnknownOceanError
 from stommel.ocean.grid import OceanGrid
 from stommel.ocean.netcdf import Reading, read_ocean
@@ -28,7 +28,7 @@ def open_ocean(
 ) -> tuple[str, OceanGrid, dict[str, str]]:
     """Name, grid and notes of an ocean; `Ocean.open` describes the arguments."""
     paths = paths_of(source, folder)
-    if any(path.suffix.lower() == ".csv" for path in paths):
+    if any(is_profile(path) for path in paths):
         if len(paths) > 1 or bounds or between or yearly or at_rest:
             raise UnknownOceanError(f"{paths[0]}: a profile is one file, without bounds, between, yearly or at_rest")
         return str(paths[0]), *read_profile_ocean(paths[0], names, parameters)

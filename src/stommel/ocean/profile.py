@@ -21,7 +21,7 @@ class ProfileOcean(Parameters):
 def read_profile_ocean(
     path: Path, columns: Mapping[str, str], parameters: Mapping[str, Any]
 ) -> tuple[OceanGrid, dict[str, str]]:
-    """Grid and notes of the ocean of a profile file; `Ocean.from_profile` describes the arguments."""
+    """Grid and notes of the ocean of a profile file; `Ocean.open` describes the arguments."""
     choice: ProfileOcean = made(ProfileOcean, str(path), parameters)
     layers = read_stratification(path, columns, latitude=choice.latitude_deg, longitude=choice.longitude_deg)
     still = np.ones(layers.depths.size)

@@ -1,6 +1,7 @@
 """Ballast of a mission: how the vehicle is trimmed before it, and how much oil its dives need."""
 
 from math import radians
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,15 +41,20 @@ def ballasted(mission: Mission) -> Vehicle:
         return vehicle.with_value("water.density_kg_m3", vehicle.description.mass_kg / neutral_volume)
     here = mission.ocean.at(plan.start_seconds, plan.start.latitude_deg, plan.start.longitude_deg, depth)
     record = pack(vehicle, PHYSICS[plan.physics])
-    yielded = 1.0 - record.kappa * here.pressure + record.alpha_T * (here.temperature - record.T_0)
+    yielded = _yielded(record, here.pressure, here.temperature)
     return vehicle.with_value("water.density_kg_m3", float(here.density * yielded))
+
+
+def _yielded(record: np.record, pressure: Any, temperature: Any) -> Any:
+    """Volume of the hull at a gauge pressure [Pa] and temperature [deg C], as a part of that at the surface."""
+    return 1.0 - record.kappa * pressure + record.alpha_T * (temperature - record.T_0)
 
 
 def neutral_volumes(mission: Mission) -> Array:
     """Ballast volumes at which the vehicle is neutral from the surface to the dive depth, at the start [m3]."""
     plan, record = mission.plan, pack(mission.vehicle, PHYSICS[mission.plan.physics])
     water = _water_below(mission, plan.dives.depth_m)
-    hull = 1.0 - record.kappa * water[:, P] + record.alpha_T * (water[:, TEMPERATURE] - record.T_0)
+    hull = _yielded(record, water[:, P], water[:, TEMPERATURE])
     volumes: Array = record.m / water[:, RHO] - record.V_0 * hull
     return volumes
 
@@ -78,8 +84,10 @@ def drives(mission: Mission) -> tuple[float, float]:
     return abs(down), abs(up)
 
 
-def ballast_volumes(mission: Mission, plant: Plant) -> tuple[float, float]:
+def ballast_volumes(mission: Mission, plant: Plant, neutral: Array) -> tuple[float, float]:
     """Ballast volumes of descent and ascent [m3], so that the vehicle keeps its drive through all of the water.
+
+    `neutral` are the `neutral_volumes` of the dive.
 
     The wanted drive (from the trim at the wanted speed, or given) is added to the volume of neutral buoyancy where the
     water is lightest on the way down, and where it is heaviest for the hull on the way up.
@@ -91,7 +99,6 @@ def ballast_volumes(mission: Mission, plant: Plant) -> tuple[float, float]:
         it that it would dive with oil outside: the flight software takes the sign of the volume for the way.
     """
     dives, (drive_down, drive_up) = mission.plan.dives, drives(mission)
-    neutral = neutral_volumes(mission)
     down, up = float(neutral.min()) - drive_down, float(neutral.max()) + drive_up
     if down < plant.ballast_low - 1e-9 or up > plant.ballast_high + 1e-9:
         raise StommelError(

@@ -1,6 +1,5 @@
 """From a mission file to a mission: the file, its vehicle and its ocean, checked against each other."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -9,6 +8,8 @@ from typing import Any
 from pydantic import ValidationError
 
 from stommel.errors import FileError, Problem
+from stommel.files import read_toml
+from stommel.ocean.answers import is_profile
 from stommel.ocean.ocean import Ocean
 from stommel.simulation.ballasting import ballasted
 from stommel.simulation.checks import refuse_impossible
@@ -28,16 +29,7 @@ def load_mission(path: str | Path) -> Mission:
     StommelError
         The vehicle or the ocean cannot be used.
     """
-    name = str(path)
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileError([Problem(name, "", f"cannot be read: {error}")]) from error
-    try:
-        document = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise FileError([Problem(name, "", f"is not valid TOML: {error}")]) from error
-    return mission_from(document, name, Path(path).parent)
+    return mission_from(read_toml(path), str(path), Path(path).parent)
 
 
 def mission_from(
@@ -70,29 +62,25 @@ def mission_from(
 
 def _ocean(plan: MissionFile, folder: Path) -> Ocean:
     choice = plan.ocean
+    beyond: dict[str, Any] = {
+        "outside": choice.outside,
+        "outside_time": choice.outside_time,
+        "climatology": choice.climatology,
+        "blend_km": choice.blend_km,
+        "blend_h": choice.blend_h,
+        "folder": folder,
+    }
     if choice.name is not None:
-        return Ocean.analytic(choice.name, **choice.parameters).with_outside(
-            choice.outside,
-            choice.outside_time,
-            climatology=choice.climatology,
-            blend_km=choice.blend_km,
-            blend_h=choice.blend_h,
-            folder=folder,
-        )
+        return Ocean.analytic(choice.name, **choice.parameters).with_outside(**beyond)
     assert choice.file is not None
     return Ocean.open(
         choice.file,
-        folder=folder,
         names=choice.names,
-        outside=choice.outside,
-        outside_time=choice.outside_time,
-        climatology=choice.climatology,
-        blend_km=choice.blend_km,
-        blend_h=choice.blend_h,
         bounds=choice.bounds_deg,
         between=_between(plan),
         at_rest=choice.at_rest,
         parameters=choice.parameters,
+        **beyond,
     )
 
 
@@ -102,8 +90,7 @@ def _between(plan: MissionFile) -> tuple[float, float] | None:
     A profile has no times, and the mean of a file, where it is the climatology, is over all of them.
     """
     choice = plan.ocean
-    profile = isinstance(choice.file, str) and choice.file.endswith(".csv")
     of_its_own = "climatology" in (choice.outside, choice.outside_time) and choice.climatology is None
-    if profile or of_its_own:
+    if is_profile(choice.file) or of_its_own:
         return None
     return plan.start_seconds, plan.end_seconds

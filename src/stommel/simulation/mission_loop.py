@@ -106,8 +106,8 @@ class Sea(NamedTuple):
 
 @inlined
 def _receive(sea, equipment, x, software, world, noise, t, step):  # type: ignore[no-untyped-def]  # compiled only
-    """Listen to GPS while the antenna is dry."""
-    if not world.afloat or software.phase not in (SURFACE, RECOVERY):
+    """Listen to GPS at the surface while the antenna is dry."""
+    if not world.afloat:
         return
     theta = attitude_of(state_from_array(x).Q).theta
     if not antenna_emerges(sea.waves, equipment.plant.antenna, theta, t):

@@ -113,37 +113,24 @@ def _oil(vehicle: Vehicle, model: EnergyModel | None) -> dict[str, Any]:
 
 def _steering(vehicle: Vehicle, model: EnergyModel | None) -> dict[str, Any]:
     d = vehicle.description
-    rudder, roll = d.actuators.rudder, d.actuators.roll
-    if d.rudder is not None and rudder is not None:
-        speed = radians(rudder.speed_deg_s) if rudder.speed_deg_s else _DEFAULT_STEERING_SPEED
-        energy = 0.0
-        if model is not None and d.energy is not None and d.energy.rudder_turn_deg > 0.0:
-            over_and_back = 2.0 * radians(d.energy.rudder_turn_deg)
-            energy = float(model.works.rudder.turn(0.4)) / over_and_back
-        return {
-            "steers_by_mass": 0.0,
-            "steering_speed": speed,
-            "steering_limit": rudder.travel_rad,
-            "steering_j_rad": energy,
-        }
-    if roll is not None and d.moving_mass.offset_m > 0.0:
-        speed = radians(roll.speed_deg_s) if roll.speed_deg_s else _DEFAULT_STEERING_SPEED
-        return {
-            "steers_by_mass": 1.0,
-            "steering_speed": speed,
-            "steering_limit": min(roll.travel_rad, pi),
-            "steering_j_rad": 0.0,
-        }
-    raise FileError(
-        [
-            Problem(
-                vehicle.origin,
-                "rudder",
-                f"{vehicle.name} has nothing to steer a mission with: neither [rudder] and [actuators.rudder], nor "
-                "[actuators.roll] and a moving mass off the axis",
-            )
-        ]
-    )
+    if d.steers_by is None:
+        text = (
+            f"{vehicle.name} has nothing to steer a mission with: neither [rudder] and [actuators.rudder], nor "
+            "[actuators.roll] and a moving mass off the axis"
+        )
+        raise FileError([Problem(vehicle.origin, "rudder", text)])
+    drive = d.actuators.rudder if d.steers_by == "rudder" else d.actuators.roll
+    assert drive is not None
+    energy = 0.0
+    if d.steers_by == "rudder" and model is not None and d.energy is not None and d.energy.rudder_turn_deg > 0.0:
+        over_and_back = 2.0 * radians(d.energy.rudder_turn_deg)
+        energy = float(model.works.rudder.turn(0.4)) / over_and_back
+    return {
+        "steers_by_mass": float(d.steers_by == "roll"),
+        "steering_speed": radians(drive.speed_deg_s) if drive.speed_deg_s else _DEFAULT_STEERING_SPEED,
+        "steering_limit": min(drive.travel_rad, pi),
+        "steering_j_rad": energy,
+    }
 
 
 def _consumers(model: EnergyModel | None, sampled: Collection[str]) -> dict[str, Any]:

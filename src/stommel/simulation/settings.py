@@ -36,8 +36,7 @@ def loop_of(mission: Mission, vehicle: np.record, dives: DivePlan) -> Loop:
     plan, physics = mission.plan, PHYSICS[mission.plan.physics]
     fastest = max(
         fastest_mode(mission.vehicle, sign * dives.theta, sign * drive, physics=physics)
-        for sign in (-1.0, 1.0)
-        for drive in drives(mission)
+        for sign, drive in zip((-1.0, 1.0), drives(mission), strict=True)
     )
     cut = plan.integration
     return Loop(
@@ -166,9 +165,10 @@ def dive_plan(mission: Mission, plant: Plant) -> DivePlan:
     """
     plan = mission.plan
     dives, surface = plan.dives, plan.surface
-    down, up = ballast_volumes(mission, plant)
+    neutral = neutral_volumes(mission)
+    down, up = ballast_volumes(mission, plant, neutral)
     afloat = plant.ballast_high if surface.ballast_ml is None else surface.ballast_ml / 1e6
-    drifting = float(neutral_volumes(mission)[-1])
+    drifting = float(neutral[-1])
     knows_antenna = mission.vehicle.description.antenna is not None
     return DivePlan(
         depth=dives.depth_m,

@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 from stommel.errors import StommelError
 from stommel.ocean.analytic import ANALYTIC
+from stommel.ocean.answers import is_profile
 from stommel.ocean.profile import ProfileOcean
 from stommel.simulation.mission_file import MissionFile
 from stommel.simulation.studies.errors import StudyError
@@ -86,7 +87,7 @@ def _numbers_of(ocean: dict[str, Any]) -> list[str]:
     """Names of the numbers of an analytic ocean or of a profile's; gridded files have none."""
     if ocean["name"] is not None:
         return list(ANALYTIC[ocean["name"]].model_fields)
-    profile = isinstance(ocean["file"], str) and ocean["file"].endswith(".csv")
+    profile = is_profile(ocean["file"])
     return list(ProfileOcean.model_fields) if profile else []
 
 

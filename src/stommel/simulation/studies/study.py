@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,6 +11,7 @@ from pydantic import ValidationError
 
 import stommel
 from stommel.errors import FileError, Problem
+from stommel.files import read_toml
 from stommel.ocean.analytic import ANALYTIC
 from stommel.ocean.sources import paths_of
 from stommel.simulation.loading import load_mission
@@ -67,14 +67,7 @@ def load_study(path: str | Path) -> Study:
     """
     origin = str(path)
     try:
-        document = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        text = getattr(error, "strerror", None) or str(error)
-        raise FileError([Problem(origin, "", f"cannot be read: {text}")]) from error
-    except tomllib.TOMLDecodeError as error:
-        raise FileError([Problem(origin, "", f"is not valid TOML: {error}")]) from error
-    try:
-        file = StudyFile.model_validate(document)
+        file = StudyFile.model_validate(read_toml(path))
     except ValidationError as error:
         found = sentences(error, StudyFile)
         raise FileError([Problem(origin, key, text.replace("from_", "from")) for key, text in found]) from None

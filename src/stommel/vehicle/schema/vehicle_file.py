@@ -57,6 +57,13 @@ class VehicleFile(Table):
         """Total mass m = m_rb + m_p + m_b [kg]."""
         return self.rigid_body.mass_kg + self.moving_mass.mass_kg + self.ballast.mass_kg
 
+    @property
+    def steers_by(self) -> Literal["rudder", "roll"] | None:
+        """What steers the vehicle: the rudder, if it has both; None if it has neither."""
+        if self.rudder is not None and self.actuators.rudder is not None:
+            return "rudder"
+        return "roll" if self.actuators.roll is not None and self.moving_mass.offset_m > 0.0 else None
+
     def unknown_lateral(self) -> Iterator[str]:
         """Keys that sideways motion needs and this vehicle's sources do not give."""
         if self.added_inertia.sway_kg is None:

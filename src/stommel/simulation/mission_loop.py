@@ -191,7 +191,8 @@ def fly(
             _phase_changed(log, software, world, t, x[2])
         commands = command(software, plan, orders.table, orders.laws, t, measured, depth)
         # act
-        done = actuate(plant, world, commands, x[13], ballast, water.P, measured.theta, step)
+        theta = attitude_of(state_from_array(x).Q).theta  # the drive bears the slope that is, not the one measured
+        done = actuate(plant, world, commands, x[13], ballast, water.P, theta, step)
         at_surface = software.phase in (SURFACE, RECOVERY)
         consume(plant, world, at_surface, int(software.phase), t - software.surfaced_at, t, step)
         software.energy_used += measured_power(sensors, world) * step

@@ -11,7 +11,7 @@ import numpy as np
 
 from stommel import dataset_of, fly_mission
 from stommel.control.dive_cycle import PHASES
-from stommel.simulation.loading import mission_from
+from stommel.simulation.scenario.loading import mission_from
 
 PLAN = {
     "name": "Half a day over the shelf",

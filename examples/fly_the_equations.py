@@ -4,11 +4,11 @@ import numpy as np
 
 import stommel
 from stommel.dynamics.acceleration import state_of, velocities_of
-from stommel.dynamics.attitude import euler_from_quaternion, quaternion_from_euler
 from stommel.dynamics.equations import state_from_array
 from stommel.dynamics.integration import integrate
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import Actuation
+from stommel.geometry.attitude import euler_from_quaternion, quaternion_from_euler
 
 zju = stommel.load_vehicle("zju")
 flight = stommel.trim(zju, speed_m_s=0.4, pitch_deg=-35.0)

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from stommel.dynamics.state import Actuation, Water
+from stommel.dynamics.state import Actuation
+from stommel.seawater.water import Water
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "benchmarks" / "c_reference" / "derivative.c"

@@ -11,7 +11,7 @@ MILLISECOND = 1e-3
 @figure(unit="ms", bar=50.0)
 def endurance_ms() -> Measurement:
     """Measure what `stommel endurance zju` computes, after start-up [ms]."""
-    from stommel.design.energy import endurance, energy_study  # noqa: PLC0415  # the other figures run without it
+    from stommel.design.endurance import endurance, energy_study  # noqa: PLC0415  # the other figures run without it
 
     vehicle = load_vehicle("zju")
     found = energy_study(vehicle)  # compiles

@@ -15,7 +15,7 @@ class NotInflatedError(Exception):
 @figure(unit="ms", bar=50.0)
 def engine_stroke_ms() -> Measurement:
     """Measure the simulation of an inflation over the whole working range at 2 MPa [ms]."""
-    from stommel.design.engine import Outcome, engine_of, simulate  # noqa: PLC0415  # the other figures run without it
+    from stommel.machinery.engine import Outcome, engine_of, simulate  # noqa: PLC0415  # the other figures run without it
 
     engine = engine_of(load_vehicle("zju")).engine
     volume = engine.measured_piston.working_volume_ml / 1e6

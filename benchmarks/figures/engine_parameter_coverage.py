@@ -14,7 +14,7 @@ def engine_parameter_coverage() -> Measurement:
 
     The detail has the share of each constant, and of its interval for one constant alone, which should be 0.95.
     """
-    from stommel.design.bench import bench_engine, fit_engine, generate_log, performance  # noqa: PLC0415
+    from stommel.bench import bench_engine, fit_engine, generate_log, performance  # noqa: PLC0415  # noqa: PLC0415
 
     engine = bench_engine(load_vehicle("zju"))
     inside: dict[str, int] = {}

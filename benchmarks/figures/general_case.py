@@ -4,11 +4,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.dynamics.acceleration import state_of
-from stommel.dynamics.attitude import quaternion_from_euler
 from stommel.dynamics.packing import pack
 from stommel.dynamics.parameters import VEHICLE_RECORD, parameter_record
-from stommel.dynamics.state import STATE_SIZE, Actuation, Water
-from stommel.dynamics.vectors import add, to_body
+from stommel.dynamics.state import STATE_SIZE, Actuation
+from stommel.geometry.attitude import quaternion_from_euler
+from stommel.geometry.vectors import add, to_body
+from stommel.seawater.water import Water
 from stommel.vehicle import FULL, load_vehicle
 
 ACTUATION = Actuation(r_px_dot=0.005, u_px=1.0, u_b=8e-6, delta_r=0.2, mu=0.3, mu_dot=0.05)

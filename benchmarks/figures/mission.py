@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from figures.registry import Measurement, figure
+from stommel.planning.mission import Mission
 from stommel.simulation.flight import Flown, fly_mission
-from stommel.simulation.loading import load_mission
 from stommel.simulation.memory import STATE_COLUMNS
-from stommel.simulation.mission import Mission
-from stommel.simulation.shipped import mission_path
-from stommel.simulation.summary import summary
+from stommel.simulation.results.summary import summary
+from stommel.simulation.scenario.loading import load_mission
+from stommel.simulation.scenario.shipped import mission_path
 
 NAME = "still_20_days"
 REPEATS = 3
@@ -31,9 +31,9 @@ _MEMORY = """
 import sys
 from pathlib import Path
 from stommel.simulation.flight import fly_mission
-from stommel.simulation.loading import load_mission
-from stommel.simulation.results import dataset_of, write_netcdf
-from stommel.simulation.shipped import mission_path
+from stommel.simulation.scenario.loading import load_mission
+from stommel.simulation.results.dataset import dataset_of, write_netcdf
+from stommel.simulation.scenario.shipped import mission_path
 flown = fly_mission(load_mission(mission_path(sys.argv[1])))
 write_netcdf(dataset_of(flown), sys.argv[2])
 peak = next(line for line in Path("/proc/self/status").read_text().splitlines() if line.startswith("VmHWM"))

@@ -21,8 +21,8 @@ from figures import peer_gliderflight, peer_jsbsim
 from figures.reference_flight import NAME, Leg, reference_flight
 from figures.registry import Measurement, figure
 from stommel.simulation.flight import fly_mission
-from stommel.simulation.loading import load_mission
-from stommel.simulation.shipped import mission_path
+from stommel.simulation.scenario.loading import load_mission
+from stommel.simulation.scenario.shipped import mission_path
 
 REPEATS = 3
 JSBSIM_HOURS = 2

@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.dynamics.packing import pack
+from stommel.planning.mission import Mission
 from stommel.simulation.flight import fly_mission
-from stommel.simulation.loading import load_mission
 from stommel.simulation.memory import STATE_COLUMNS
-from stommel.simulation.mission import Mission
-from stommel.simulation.shipped import mission_path
+from stommel.simulation.scenario.loading import load_mission
+from stommel.simulation.scenario.shipped import mission_path
 from stommel.vehicle import PHYSICS
 
 Array = NDArray[np.float64]

@@ -10,9 +10,10 @@ from figures.c_kernel import FLAGS, CKernel, NoCompilerError, c_kernel, compiler
 from figures.general_case import ACTUATION, WATER, attached_state, general_vehicle, random_states
 from figures.registry import Measurement, figure
 from figures.timing import alternating, seconds, summary
-from stommel.dynamics.compilation import inlined
+from stommel.compilation import inlined
 from stommel.dynamics.equations import derivative
-from stommel.dynamics.state import STATE_SIZE, Actuation, Water
+from stommel.dynamics.state import STATE_SIZE, Actuation
+from stommel.seawater.water import Water
 
 EVALUATIONS = 1_000_000
 REPEATS = 9

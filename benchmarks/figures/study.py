@@ -10,11 +10,11 @@ from pathlib import Path
 from time import perf_counter, sleep
 
 from figures.registry import Measurement, figure
-from stommel.simulation.shipped import mission_path
-from stommel.simulation.studies.flight import fly_run
-from stommel.simulation.studies.run import journal_of, run_study
-from stommel.simulation.studies.running import cores
-from stommel.simulation.studies.study import load_study
+from stommel.simulation.scenario.shipped import mission_path
+from stommel.studies.flight import fly_run
+from stommel.studies.run import journal_of, run_study
+from stommel.studies.running import cores
+from stommel.studies.study import load_study
 
 RUNS = 1000
 ROUNDS = 2

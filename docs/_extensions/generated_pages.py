@@ -20,10 +20,10 @@ from sphinx.application import Sphinx
 from sphinx.util import logging
 
 import stommel
-from stommel.simulation.mission_file import MissionFile
-from stommel.vehicle.messages import allowed_range, unit_of
+from stommel.files.fields import Table
+from stommel.files.sentences import allowed_range, unit_of
+from stommel.simulation.scenario.mission_file import MissionFile
 from stommel.vehicle.schema import VehicleFile
-from stommel.vehicle.schema.fields import Table
 
 logger = logging.getLogger(__name__)
 

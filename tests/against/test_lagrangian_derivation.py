@@ -19,7 +19,8 @@ from scipy.spatial.transform import Rotation
 from stommel.dynamics.acceleration import accelerations, state_of, velocities_of
 from stommel.dynamics.equations import derivative
 from stommel.dynamics.parameters import parameter_record
-from stommel.dynamics.state import STATE_SIZE, Actuation, State, Water
+from stommel.dynamics.state import STATE_SIZE, Actuation, State
+from stommel.seawater.water import Water
 
 Array = NDArray[np.float64]
 

@@ -17,7 +17,8 @@ from stommel.dynamics.acceleration import accelerations, state_of, velocities_of
 from stommel.dynamics.equations import derivative
 from stommel.dynamics.integration import integrate
 from stommel.dynamics.parameters import VEHICLE_RECORD, parameter_record
-from stommel.dynamics.state import STATE_SIZE, Actuation, State, Water
+from stommel.dynamics.state import STATE_SIZE, Actuation, State
+from stommel.seawater.water import Water
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]

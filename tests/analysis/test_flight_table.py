@@ -9,8 +9,8 @@ import stommel
 from stommel.analysis.flight_table import flight_table
 from stommel.analysis.linearization import linearise
 from stommel.dynamics.packing import reference_water
-from stommel.dynamics.state import Water
 from stommel.errors import StommelError
+from stommel.seawater.water import Water
 
 POINTS = [(0, 3, 4), (0, 10, 9), (1, 10, 9), (1, 16, 2)]
 

@@ -12,10 +12,10 @@ from stommel.analysis.batch import trims_with_modes
 from stommel.analysis.linearization import is_stable
 from stommel.analysis.steady_equations import ALPHA, BETA, DELTA_R, MU, PHI, R_PX, THETA, V_B, V
 from stommel.dynamics.acceleration import accelerations, state_of
-from stommel.dynamics.attitude import euler_rates, quaternion_from_euler
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import Actuation
 from stommel.errors import FileError
+from stommel.geometry.attitude import euler_rates, quaternion_from_euler
 
 
 @pytest.fixture(scope="module")

@@ -11,11 +11,11 @@ import stommel
 from stommel.analysis import RequestError, SteadyFlight
 from stommel.analysis.limits import Reason
 from stommel.dynamics.acceleration import state_of, velocities_of
-from stommel.dynamics.attitude import quaternion_from_euler
 from stommel.dynamics.equations import state_from_array
 from stommel.dynamics.integration import integrate
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import STATE_SIZE, Actuation
+from stommel.geometry.attitude import quaternion_from_euler
 from stommel.vehicle import LateralPlaneUnknownError, builtin_text, vehicle_from_text
 
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from stommel.design.bench import BenchPlan, bench_engine, generate_log, write_log
-from stommel.design.engine.steady_state import EngineParameters
+from stommel.bench import BenchPlan, bench_engine, generate_log, write_log
+from stommel.machinery.engine.steady_state import EngineParameters
 from stommel.vehicle import load_vehicle
 from tests.cli.conftest import stommel  # noqa: F401  # the fixture
 

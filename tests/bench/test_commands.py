@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from stommel.design.bench import MARKER
+from stommel.bench import MARKER
 from tests.cli.conftest import Command, Outcome
 
 GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "bench.md"

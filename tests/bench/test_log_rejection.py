@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from stommel.design.bench import BenchFileError, read_engine_log
+from stommel.bench import BenchFileError, read_engine_log
 from tests.bench.conftest import Edit, edited
 
 RUN, TIME, PRESSURE, SPEED, VOLTAGE, CURRENT, TRAVEL = range(7)

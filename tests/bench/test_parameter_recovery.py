@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stommel.design.bench import (
+from stommel.bench import (
     DEFAULT_PARAMETERS,
     BenchPlan,
     BenchRequestError,
@@ -19,7 +19,7 @@ from stommel.design.bench import (
     performance,
     read_engine_log,
 )
-from stommel.design.engine.steady_state import EngineParameters
+from stommel.machinery.engine.steady_state import EngineParameters
 from tests.bench.conftest import SMALL
 
 SEEDS = 60

@@ -5,13 +5,13 @@ from pathlib import Path
 
 import pytest
 
-from stommel.design.bench import MARKER, bench_engine, fit_engine, generate_log, judge, performance, read_pressure_test
-from stommel.design.bench.fit_plot import fit_figure
-from stommel.design.bench.holding_plot import holding_figure
-from stommel.design.bench.performance_plot import performance_figure, response_figure
-from stommel.design.bench.speed_study import SpeedStudy, speed_study
-from stommel.design.engine.steady_state import EngineParameters
-from stommel.design.plots import svg_text
+from stommel.bench import MARKER, bench_engine, fit_engine, generate_log, judge, performance, read_pressure_test
+from stommel.bench.fit_plot import fit_figure
+from stommel.bench.holding_plot import holding_figure
+from stommel.bench.performance_plot import performance_figure, response_figure
+from stommel.bench.speed_study import SpeedStudy, speed_study
+from stommel.figures.saving import svg_text
+from stommel.machinery.engine.steady_state import EngineParameters
 from stommel.vehicle import load_vehicle
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stommel.design.bench import (
+from stommel.bench import (
     MARKER,
     BenchPlan,
     BenchRequestError,
@@ -22,8 +22,8 @@ from stommel.design.bench import (
     read_engine_log,
     time_limit_of,
 )
-from stommel.design.bench.bench_engine import piston_area_of
-from stommel.design.engine.steady_state import EngineParameters, steady_state
+from stommel.bench.bench_engine import piston_area_of
+from stommel.machinery.engine.steady_state import EngineParameters, steady_state
 from stommel.vehicle import load_vehicle
 from tests.bench.conftest import edited
 

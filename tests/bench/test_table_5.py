@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from stommel.design.bench import BenchFileError, judge, read_pressure_test
+from stommel.bench import BenchFileError, judge, read_pressure_test
 
 HEADER = "hold,from,to,from_pressure_mpa,to_pressure_mpa\n"
 TABLE_5 = [

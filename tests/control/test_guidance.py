@@ -6,7 +6,8 @@ import pytest
 from pyproj import Geod
 
 from stommel.control.dead_reckoning import depth_averaged_current
-from stommel.control.guidance import course_to_steer, to_waypoint
+from stommel.control.guidance import course_to_steer
+from stommel.geometry.earth import to_waypoint
 
 ELLIPSOID = Geod(ellps="WGS84")
 

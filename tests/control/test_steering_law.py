@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from stommel.control.laws import ENDABLE, HeadingLaw, steering_command, steering_gains, wrapped
+from stommel.control.laws import ENDABLE, HeadingLaw, steering_command, steering_gains
+from stommel.geometry.attitude import wrapped
 
 FREE = HeadingLaw(response=30.0, dead_band=0.0, limit=10.0)
 """No dead band and no limit that matters."""

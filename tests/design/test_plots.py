@@ -17,16 +17,14 @@ from stommel.design.plots import (
     authority_figure,
     envelope_figure,
     modes_figure,
-    png_bytes,
     root_locus_figure,
-    save_figure,
-    svg_text,
     trade_off,
     trim_table_figure,
     turns_figure,
     vehicle_figure,
 )
 from stommel.errors import OutputError
+from stommel.figures.saving import png_bytes, save_figure, svg_text
 from stommel.vehicle import builtin_names, builtin_text, load_vehicle, vehicle_from_text
 
 NAMES = pytest.mark.parametrize("name", builtin_names())

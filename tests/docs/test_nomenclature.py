@@ -12,7 +12,8 @@ import pytest
 
 from stommel.dynamics import parameters, state
 from stommel.dynamics.parameters import VEHICLE_RECORD
-from stommel.dynamics.state import Actuation, State, Water
+from stommel.dynamics.state import Actuation, State
+from stommel.seawater.water import Water
 
 THEORY = Path(__file__).parents[2] / "docs" / "theory"
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from stommel.design.drives import DriveError, DriveStudy, PitchDrive, drive_study
-from stommel.design.drives.limit_switches import LimitSwitches, over_run
+from stommel.design.drives import DriveStudy, drive_study
+from stommel.machinery.drives import DriveError, PitchDrive
+from stommel.machinery.drives.limit_switches import LimitSwitches, over_run
 from stommel.vehicle import Vehicle, builtin_text, load_vehicle, vehicle_from_text
 
 ZJU = load_vehicle("zju")

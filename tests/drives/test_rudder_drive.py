@@ -4,8 +4,9 @@ from math import degrees, pi, radians
 
 import pytest
 
-from stommel.design.drives import DriveStudy, RudderDrive, drive_study
-from stommel.design.drives.rudder import centre_of_pressure
+from stommel.design.drives import DriveStudy, drive_study
+from stommel.machinery.drives import RudderDrive
+from stommel.machinery.drives.rudder import centre_of_pressure
 from stommel.vehicle import builtin_text, load_vehicle, vehicle_from_text
 
 ZJU = load_vehicle("zju")

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stommel.design.drives import DriveError
-from stommel.design.drives.gears import Gearbox, Helix, screw_helix, worm_helix
+from stommel.machinery.drives import DriveError
+from stommel.machinery.drives.gears import Gearbox, Helix, screw_helix, worm_helix
 from stommel.vehicle.schema.drives import Screw, WormGear
 
 LOAD_N, LEAD_M = 6400.0, 0.008

@@ -2,7 +2,7 @@
 
 import pytest
 
-from stommel.design.energy import EnergyStudy, energy_study
+from stommel.design.endurance import EnergyStudy, energy_study
 from stommel.vehicle import Vehicle, load_vehicle
 
 

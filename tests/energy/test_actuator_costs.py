@@ -5,11 +5,11 @@ from math import radians
 import pytest
 
 from stommel.analysis import trim
-from stommel.design.drives import PitchDrive, RudderDrive
 from stommel.design.drives.trim_change import trim_change
-from stommel.design.energy import energy_model
-from stommel.design.energy.engine_work import pump_by_engine
-from stommel.design.engine import Outcome, engine_of, load_engine, simulate
+from stommel.machinery.drives import PitchDrive, RudderDrive
+from stommel.machinery.engine import Outcome, engine_of, load_engine, simulate
+from stommel.machinery.power import energy_model
+from stommel.machinery.power.engine_work import pump_by_engine
 from stommel.vehicle import Vehicle
 
 

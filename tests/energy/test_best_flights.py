@@ -5,8 +5,9 @@ from math import degrees, radians
 import numpy as np
 import pytest
 
-from stommel.design.energy import EnergyStudy, best_flights, endurance, energy_model
-from stommel.design.energy.best_flights import _Search
+from stommel.design.endurance import EnergyStudy, best_flights, endurance
+from stommel.design.endurance.best_flights import _Search
+from stommel.machinery.power import energy_model
 from stommel.vehicle import FULL, PAPER, Vehicle
 
 

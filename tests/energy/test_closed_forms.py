@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stommel.design.energy import EnergyModel, endurance, energy_model
-from stommel.design.energy.actuator_models import ActuatorWorks
-from stommel.design.energy.actuator_work import PitchDriveWork, PumpWork, RudderWork
-from stommel.design.energy.dive_cycle import INFLATE
-from stommel.design.energy.endurance import Wanted, balance, flights_of
+from stommel.design.endurance import endurance
+from stommel.design.endurance.dive_cycle import INFLATE
+from stommel.design.endurance.endurance import Wanted, balance, flights_of
+from stommel.machinery.power import EnergyModel, energy_model
+from stommel.machinery.power.actuator_models import ActuatorWorks
+from stommel.machinery.power.actuator_work import PitchDriveWork, PumpWork, RudderWork
 from stommel.vehicle import PAPER, Vehicle
 from stommel.vehicle.schema import Consumer
 

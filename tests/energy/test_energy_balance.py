@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from stommel.analysis import UnreachableFlightError
-from stommel.design.energy import endurance
+from stommel.design.endurance import endurance
 from stommel.vehicle import load_vehicle
 
 ZJU = load_vehicle("zju")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from stommel.design.energy import EnergyStudy, Sensitivity, endurance
+from stommel.design.endurance import EnergyStudy, Sensitivity, endurance
 from stommel.vehicle import Vehicle
 
 
@@ -87,7 +87,7 @@ def test_the_gap_is_a_power(study: EnergyStudy) -> None:
 
 
 def test_a_met_target_leaves_no_gap(zju: Vehicle) -> None:
-    from stommel.design.energy import energy_study
+    from stommel.design.endurance import energy_study
 
     found = energy_study(zju.with_value("battery.capacity_ah", 90.0))
     assert found.gap is None

@@ -2,7 +2,7 @@
 
 import pytest
 
-from stommel.design.engine import engine_of, load_engine
+from stommel.machinery.engine import engine_of, load_engine
 from stommel.vehicle import load_vehicle
 from stommel.vehicle.schema import Engine
 from tests.cli.conftest import stommel

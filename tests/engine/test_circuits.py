@@ -4,16 +4,16 @@ from importlib import resources
 
 import pytest
 
-from stommel.design.engine import Outcome, engine_of, example_names, load_engine, simulate
-from stommel.design.engine.circuit import CircuitError, assemble
-from stommel.design.engine.files import NoEngineError, engine_from_text
 from stommel.errors import FileError
+from stommel.machinery.engine import Outcome, engine_of, example_names, load_engine, simulate
+from stommel.machinery.engine.circuit import CircuitError, assemble
+from stommel.machinery.engine.files import NoEngineError, engine_from_text
 from stommel.vehicle import builtin_text, load_vehicle
 
 ML = 1e-6
 ZJU = builtin_text("zju")
-HIGH_PRESSURE = (resources.files("stommel.design.engine") / "examples" / "high-pressure.toml").read_text()
-SLOCUM = (resources.files("stommel.design.engine") / "examples" / "slocum-1000m.toml").read_text()
+HIGH_PRESSURE = (resources.files("stommel.machinery.engine") / "examples" / "high-pressure.toml").read_text()
+SLOCUM = (resources.files("stommel.machinery.engine") / "examples" / "slocum-1000m.toml").read_text()
 
 
 def refusal(old: str, new: str, text: str = ZJU) -> str:

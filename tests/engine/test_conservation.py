@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stommel.design.engine import EngineRun, simulate
+from stommel.machinery.engine import EngineRun, simulate
 from stommel.vehicle.schema import Engine
 
 ML = 1e-6
@@ -45,7 +45,7 @@ def test_oil_leaves_the_cylinder_that_enters_the_bladder(zju: Engine) -> None:
     ideal=st.booleans(),
 )
 def test_any_inflation(pressure: float, volume: float, speed: float, ideal: bool) -> None:
-    from stommel.design.engine import engine_of
+    from stommel.machinery.engine import engine_of
     from stommel.vehicle import load_vehicle
 
     engine = engine_of(load_vehicle("zju")).engine

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from stommel.design.engine import Outcome, engine_parameters, simulate, stall_pressure
-from stommel.design.engine.segments import SimulationError
-from stommel.design.engine.steady_state import steady_state
+from stommel.machinery.engine import Outcome, engine_parameters, simulate, stall_pressure
+from stommel.machinery.engine.segments import SimulationError
+from stommel.machinery.engine.steady_state import steady_state
 from stommel.vehicle.schema import Engine
 
 ML = 1e-6
@@ -55,8 +55,8 @@ def test_piston_breaks_away_at_its_static_friction(zju: Engine) -> None:
 def test_times_do_not_depend_on_the_integrator(zju: Engine, monkeypatch: pytest.MonkeyPatch) -> None:
     """A thousand times the accuracy changes the duration by less than a millisecond, the energy by less than 1e-5."""
     coarse = simulate(zju, pressure_pa=2e6, inflate_m3=300 * ML).phases[0]
-    monkeypatch.setattr("stommel.design.engine.segments.RTOL", 1e-9)
-    monkeypatch.setattr("stommel.design.engine.segments.LONGEST_STEP_S", 0.2)
+    monkeypatch.setattr("stommel.machinery.engine.segments.RTOL", 1e-9)
+    monkeypatch.setattr("stommel.machinery.engine.segments.LONGEST_STEP_S", 0.2)
     fine = simulate(zju, pressure_pa=2e6, inflate_m3=300 * ML).phases[0]
     assert coarse.duration_s == pytest.approx(fine.duration_s, abs=1e-3)
     assert coarse.energy_j == pytest.approx(fine.energy_j, rel=1e-5)
@@ -119,7 +119,7 @@ def test_end_stop(zju: Engine) -> None:
 
 
 def test_driven_piston_meets_its_end_stop() -> None:
-    from stommel.design.engine import load_engine
+    from stommel.machinery.engine import load_engine
 
     engine = replaced(load_engine("slocum-1000m").engine, "cylinders", stroke_mm=226.6)
     coarse = engine.model_copy(update={"sensor": engine.sensor.model_copy(update={"resolution_mm": 50.0})})
@@ -140,7 +140,7 @@ def test_sensor_decides_when_to_stop(zju: Engine) -> None:
 
 def test_accumulator_fills_and_holds() -> None:
     """Behind a throttle the pump lifts the accumulator above its precharge; at rest it empties into the bladder."""
-    from stommel.design.engine import load_engine
+    from stommel.machinery.engine import load_engine
 
     engine = replaced(load_engine("high-pressure").engine, "accumulators", precharge_mpa=5.0)
     engine = replaced(engine, "lines", resistance_mpa_s_ml=0.001)

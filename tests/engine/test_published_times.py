@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stommel.design.engine import Outcome, simulate
+from stommel.machinery.engine import Outcome, simulate
 from stommel.vehicle.schema import Engine
 
 ML = 1e-6

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from stommel.design.engine import EngineParameters, engine_parameters, simulate
-from stommel.design.engine.steady_state import friction_pressure, steady_state
+from stommel.machinery.engine import EngineParameters, engine_parameters, simulate
+from stommel.machinery.engine.steady_state import friction_pressure, steady_state
 from stommel.vehicle.schema import Engine
 
 ML = 1e-6
@@ -32,7 +32,7 @@ def test_simulation_settles_to_it(zju: Engine, pressure_mpa: float, speed_rpm: f
 
 
 def test_driven_piston_settles_to_it() -> None:
-    from stommel.design.engine import load_engine
+    from stommel.machinery.engine import load_engine
 
     engine = load_engine("slocum-1000m").engine
     run = simulate(engine, pressure_pa=2e6, inflate_m3=200 * ML)

@@ -8,8 +8,8 @@ import pytest
 from pyproj import Geod
 
 from stommel.ocean import Ocean, OutsideOceanError, UnknownOceanError
-from stommel.ocean.analytic import ANALYTIC
-from stommel.ocean.east_china_sea import EastChinaSea
+from stommel.ocean.analytic.catalogue import ANALYTIC
+from stommel.ocean.analytic.east_china_sea import EastChinaSea
 from stommel.seawater.stratification import SOUTH_CHINA_SEA
 
 GEOD = Geod(ellps="WGS84")

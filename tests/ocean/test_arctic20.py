@@ -10,9 +10,9 @@ import xarray as xr
 from pyproj import Proj
 
 from stommel.ocean import LandError, Ocean, OutsideOceanError
-from stommel.ocean.column import fill_column
 from stommel.ocean.errors import BelowBottomError
-from stommel.ocean.grid import CT_ROW, EAST, NORTH, OK, SALINITY, TEMPERATURE, new_cell, new_column
+from stommel.ocean.kernel.column import fill_column
+from stommel.ocean.kernel.grid import CT_ROW, EAST, NORTH, OK, SALINITY, TEMPERATURE, new_cell, new_column
 
 FIRST_DAY = 1454328000.0
 
@@ -146,7 +146,7 @@ def test_outside_in_space(arctic20: Path, ocean: Ocean) -> None:
 
 def test_every_cell_is_found_from_any_other(ocean: Ocean) -> None:
     """The walk from a far cell and the full search agree: a place inside each of 300 cells, visited at random."""
-    from stommel.ocean.cells import find_cell, mapped
+    from stommel.ocean.kernel.cells import find_cell, mapped
 
     grid, cell = ocean.grid(), new_cell()
     random = np.random.default_rng(4)
@@ -161,7 +161,7 @@ def test_every_cell_is_found_from_any_other(ocean: Ocean) -> None:
 
 def test_density_of_the_file_is_teos_10(ocean: Ocean) -> None:
     """The bar is 1e-4 kg/m3 over the file's range: every value of the file, at its own pressure."""
-    from stommel.ocean.grid import CT, S_A
+    from stommel.ocean.kernel.grid import CT, S_A
     from stommel.seawater.table import densities
 
     grid = ocean.grid()

@@ -9,8 +9,9 @@ import pytest
 import xarray as xr
 
 from stommel.errors import StommelError
-from stommel.ocean import LandError, Ocean, OutsideOceanError, geodesy
-from stommel.ocean.netcdf import YEAR
+from stommel.geometry import earth as geodesy
+from stommel.ocean import LandError, Ocean, OutsideOceanError
+from stommel.ocean.reading.netcdf import YEAR
 from tests.ocean.conftest import Writer, regular_sea
 
 START = 1583020800.0

@@ -11,7 +11,7 @@ import xarray as xr
 
 from stommel.errors import FileError
 from stommel.ocean import Ocean
-from stommel.ocean.classic import expected_length
+from stommel.ocean.reading.classic import expected_length
 from tests.ocean.conftest import Writer, regular_sea
 
 

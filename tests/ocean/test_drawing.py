@@ -7,7 +7,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from stommel.ocean import BelowBottomError, LandError, Ocean, OutsideOceanError
-from stommel.ocean.drawing import draw_ocean, layer_of
+from stommel.ocean.pictures.drawing import draw_ocean, layer_of
 
 FIRST_DAY = 1454328000.0
 
@@ -40,7 +40,7 @@ def test_the_layer_of_a_map_is_what_the_ocean_answers(arctic20: Path) -> None:
 
 
 def test_a_large_grid_is_thinned(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("stommel.ocean.drawing._MOST_NODES", 50)
+    monkeypatch.setattr("stommel.ocean.pictures.drawing._MOST_NODES", 50)
     layer = layer_of(Ocean.analytic("gyre"), 0.0, 0.0)
     assert layer.temperature.shape == (41, 41)
     assert np.ptp(layer.x) == pytest.approx(400.0, rel=2e-3)  # in the plane

@@ -8,12 +8,13 @@ from numba.core.runtime import _nrt_python, rtsys
 from pyproj import CRS, Geod, Transformer
 
 from stommel.compilation import compiled
-from stommel.ocean import Ocean, geodesy
-from stommel.ocean.chart import chart_at, project
-from stommel.ocean.column import fill_column, water_at
-from stommel.ocean.grid import HELD, OK, RHO, P, new_cell, new_column
+from stommel.geometry import earth as geodesy
+from stommel.ocean import Ocean
+from stommel.ocean.kernel.chart import chart_at, project
+from stommel.ocean.kernel.column import fill_column, water_at
+from stommel.ocean.kernel.grid import HELD, OK, RHO, P, new_cell, new_column
+from stommel.ocean.kernel.unproject import unproject
 from stommel.ocean.times import seconds
-from stommel.ocean.unproject import unproject
 
 
 @compiled
@@ -115,7 +116,7 @@ def test_north_and_scale_of_the_plane_are_its_derivatives(latitude: float) -> No
 
 def test_a_vehicle_that_crosses_the_pole_sees_one_current(tmp_path) -> None:
     """A current that is uniform in the plane at the pole stays so across it, in space, not in its components."""
-    from stommel.ocean.build import Frame, Slot, ocean_grid
+    from stommel.ocean.reading.build import Frame, Slot, ocean_grid
     from stommel.seawater.table import density_table
 
     x, y = np.meshgrid(np.linspace(-3e5, 3e5, 7), np.linspace(-3e5, 3e5, 7))

@@ -20,7 +20,7 @@ WHOLE_MB = 4 * 4 * TIMES * LEVELS * ROWS * COLUMNS / 1e6
 _PROGRAM = """
 import json, sys
 from stommel.ocean import Ocean
-import netCDF4, pyproj, gsw, stommel.ocean.netcdf
+import netCDF4, pyproj, gsw, stommel.ocean.reading.netcdf
 from pathlib import Path
 def peak():  # of this process alone: what getrusage says begins with the parent's
     lines = Path("/proc/self/status").read_text().splitlines()
@@ -79,7 +79,7 @@ def test_a_region_and_two_days_of_a_large_file(large: Path) -> None:
 
 def test_only_what_is_wanted_is_asked_of_the_file(large: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Numbers read in all, counted where they leave the file: the region and its margin, twice for coordinates."""
-    from stommel.ocean.variables import File
+    from stommel.ocean.reading.variables import File
 
     count = 0
     raw = File.raw

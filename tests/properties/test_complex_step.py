@@ -12,11 +12,12 @@ import pytest
 from numpy.typing import NDArray
 
 from stommel.dynamics.acceleration import state_of
-from stommel.dynamics.attitude import quaternion_from_euler
-from stommel.dynamics.elementary import asin, atan2, real_part, sqrt
 from stommel.dynamics.equations import derivative
 from stommel.dynamics.packing import pack
-from stommel.dynamics.state import STATE_SIZE, Actuation, Water
+from stommel.dynamics.state import STATE_SIZE, Actuation
+from stommel.geometry.attitude import quaternion_from_euler
+from stommel.geometry.elementary import asin, atan2, real_part, sqrt
+from stommel.seawater.water import Water
 from stommel.vehicle import FULL, PAPER, Physics, load_vehicle
 
 Array = NDArray[np.float64]

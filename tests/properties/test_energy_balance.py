@@ -16,7 +16,8 @@ from stommel.dynamics.equations import derivative
 from stommel.dynamics.hydrodynamics import viscous_forces
 from stommel.dynamics.integration import integrate
 from stommel.dynamics.parameters import parameter_record
-from stommel.dynamics.state import STATE_SIZE, Actuation, Water
+from stommel.dynamics.state import STATE_SIZE, Actuation
+from stommel.seawater.water import Water
 
 Vector = NDArray[Any]  # real or complex
 

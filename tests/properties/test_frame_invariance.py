@@ -18,7 +18,8 @@ from stommel.dynamics.acceleration import Accelerations, accelerations, state_of
 from stommel.dynamics.integration import integrate
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.parameters import VEHICLE_RECORD, parameter_record
-from stommel.dynamics.state import STATE_SIZE, Actuation, State, Water
+from stommel.dynamics.state import STATE_SIZE, Actuation, State
+from stommel.seawater.water import Water
 from stommel.vehicle import FULL, PAPER, Physics, load_vehicle
 
 Array = NDArray[np.float64]

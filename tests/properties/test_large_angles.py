@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from stommel.compilation import inlined
 from stommel.dynamics.acceleration import state_of
-from stommel.dynamics.attitude import quaternion_from_euler
-from stommel.dynamics.compilation import inlined
 from stommel.dynamics.hydrodynamics import viscous_forces
 from stommel.dynamics.integration import integrate
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import STATE_SIZE, Actuation
+from stommel.geometry.attitude import quaternion_from_euler
 from stommel.vehicle import FULL, PAPER, builtin_names, load_vehicle
 
 Array = NDArray[np.float64]

@@ -10,11 +10,11 @@ import pytest
 from numpy.typing import NDArray
 
 from stommel.control.dive_cycle import EVENTS, PHASES
+from stommel.planning.mission import Mission
 from stommel.simulation.flight import Flown, fly_mission
-from stommel.simulation.loading import mission_from
 from stommel.simulation.memory import EVENT_COLUMNS, SAMPLE_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
-from stommel.simulation.mission import Mission
-from stommel.simulation.results import dataset_of, netcdf_bytes
+from stommel.simulation.results.dataset import dataset_of, netcdf_bytes
+from stommel.simulation.scenario.loading import mission_from
 
 Document = dict[str, Any]
 

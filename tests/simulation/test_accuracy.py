@@ -5,7 +5,7 @@ import pytest
 
 from stommel.simulation.flight import Flown
 from stommel.simulation.memory import STATE_COLUMNS, SURFACING_COLUMNS
-from stommel.simulation.summary import summary
+from stommel.simulation.results.summary import summary
 from tests.simulation.conftest import QUIET, flown
 
 EAST, NORTH = 0.15, -0.08

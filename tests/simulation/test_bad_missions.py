@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from stommel.errors import StommelError
-from stommel.simulation.loading import mission_from
+from stommel.simulation.scenario.loading import mission_from
 from tests.cli.conftest import Command, stommel
 from tests.ocean.conftest import Writer, arctic20, sea_file
 from tests.simulation.conftest import Document, flown, made, mission_document

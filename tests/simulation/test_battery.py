@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stommel.simulation.flight import Flown
-from stommel.simulation.parameters import CONSUMERS
+from stommel.simulation.plant.parameters import CONSUMERS
 from tests.simulation.conftest import EXACT, column, events, flown
 
 SMALL = {"battery.capacity_ah": 0.5}

@@ -8,9 +8,9 @@ import pytest
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 
 from stommel.control.dive_cycle import PHASES
-from stommel.simulation.ctd import samples_of
 from stommel.simulation.flight import Flown, fly_mission
-from stommel.simulation.loading import mission_from
+from stommel.simulation.results.ctd import samples_of
+from stommel.simulation.scenario.loading import mission_from
 from tests.simulation.conftest import EXACT, Document, column, flown, mission_document, sampled, stays
 
 IDEAL: Document = {

@@ -13,9 +13,9 @@ from typing import Any, get_args
 import pytest
 from pydantic import BaseModel
 
-from stommel.simulation.loading import load_mission, mission_from
-from stommel.simulation.mission import Mission
-from stommel.simulation.mission_file import MissionFile
+from stommel.planning.mission import Mission
+from stommel.simulation.scenario.loading import load_mission, mission_from
+from stommel.simulation.scenario.mission_file import MissionFile
 from tests.cli.conftest import Command, stommel
 
 __all__ = ["stommel"]

@@ -8,9 +8,9 @@ import pytest
 from pyproj import Geod
 
 from stommel.simulation.flight import Flown, fly_mission
-from stommel.simulation.loading import load_mission, mission_from
-from stommel.simulation.shipped import mission_path
-from stommel.simulation.summary import summary
+from stommel.simulation.results.summary import summary
+from stommel.simulation.scenario.loading import load_mission, mission_from
+from stommel.simulation.scenario.shipped import mission_path
 from tests.simulation.conftest import column, surfaced
 
 

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from stommel.simulation.flight import Flown, fly_mission
-from stommel.simulation.loading import mission_from
+from stommel.simulation.scenario.loading import mission_from
 from tests.ocean.conftest import Writer, sea_file
 from tests.simulation.conftest import Document, column, events, mission_document
 

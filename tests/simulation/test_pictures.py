@@ -20,7 +20,7 @@ from stommel.simulation.pictures import (
     sawtooth_figure,
     trial_figure,
 )
-from stommel.simulation.results import dataset_of, write_netcdf
+from stommel.simulation.results.dataset import dataset_of, write_netcdf
 from tests.simulation.conftest import flown
 
 FIGURES = (actuators_figure, ctd_figure, energy_figure, map_figure, sawtooth_figure, trial_figure)

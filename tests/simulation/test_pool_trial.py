@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from stommel.simulation.flight import Flown, fly_mission
-from stommel.simulation.loading import mission_from
 from stommel.simulation.memory import STATE_COLUMNS
-from stommel.simulation.shipped import mission_path
+from stommel.simulation.scenario.loading import mission_from
+from stommel.simulation.scenario.shipped import mission_path
 
 
 def _flown(shielding: float) -> Flown:

@@ -11,7 +11,7 @@ import xarray as xr
 
 from stommel.errors import OutputError
 from stommel.simulation.flight import Flown
-from stommel.simulation.results import dataset_of, write_netcdf
+from stommel.simulation.results.dataset import dataset_of, write_netcdf
 from tests.simulation.conftest import made
 
 
@@ -57,7 +57,7 @@ import resource, signal, sys
 from pathlib import Path
 import numpy as np, xarray as xr
 from stommel.errors import OutputError
-from stommel.simulation.results import write_netcdf
+from stommel.simulation.results.dataset import write_netcdf
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 data = xr.Dataset({"depth": ("time", np.random.default_rng(0).normal(size=200_000), {"units": "m"})})
 write_netcdf(data, sys.argv[1])  # loads everything that is written to when it is first loaded
@@ -81,9 +81,9 @@ def test_full_disk_leaves_nothing(tmp_path: Path) -> None:
 MEMORY = """
 from pathlib import Path
 from stommel.simulation.flight import fly_mission
-from stommel.simulation.loading import load_mission
-from stommel.simulation.results import dataset_of, write_netcdf
-from stommel.simulation.shipped import mission_path
+from stommel.simulation.scenario.loading import load_mission
+from stommel.simulation.results.dataset import dataset_of, write_netcdf
+from stommel.simulation.scenario.shipped import mission_path
 import sys
 flown = fly_mission(load_mission(mission_path("still_20_days")))
 assert flown.outcome == "time over", flown.outcome

@@ -8,7 +8,7 @@ import pytest
 import stommel.vehicle
 from stommel.errors import StommelError
 from stommel.simulation.flight import Flown, fly_mission
-from stommel.simulation.loading import mission_from
+from stommel.simulation.scenario.loading import mission_from
 from tests.simulation.conftest import QUIET, Document, column, made, mission_document, stays
 
 SEAWING = Path(stommel.vehicle.__file__).parent / "builtin" / "seawing.toml"

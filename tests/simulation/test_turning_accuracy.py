@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stommel.simulation.summary import summary
+from stommel.simulation.results.summary import summary
 from tests.simulation.conftest import EXACT, column, flown
 
 ZIGZAG = [{"latitude_deg": 18.0 + 0.005 * k, "longitude_deg": 116.0 + 0.008 * (k % 2)} for k in range(1, 30)]

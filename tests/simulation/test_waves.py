@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stommel.simulation.flight import Flown
-from stommel.simulation.waves import heave_period, jonswap, not_followed, waves_of
+from stommel.simulation.plant.waves import heave_period, jonswap, not_followed, waves_of
 from tests.simulation.conftest import QUIET, Document, flown, made, mission_document, stays, surfaced
 
 HEIGHT, PERIOD = 3.0, 8.0

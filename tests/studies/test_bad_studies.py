@@ -52,7 +52,7 @@ SWEEP = 'kind = "sweep"\n[[parameters]]\n'
 )
 def test_refused_with_one_line(folder: Path, write: Write, text: str, words: list[str]) -> None:
     from stommel.errors import FileError
-    from stommel.simulation.studies.study import load_study
+    from stommel.studies.study import load_study
 
     with pytest.raises(FileError) as caught:
         load_study(write(text))
@@ -77,9 +77,9 @@ def test_scheduler_that_does_not_answer(folder: Path, write: Write) -> None:
     import threading
 
     pytest.importorskip("distributed", reason="needs the extra cluster")
-    from stommel.simulation.studies.errors import StudyError
-    from stommel.simulation.studies.running import fly_on_cluster
-    from stommel.simulation.studies.study import load_study
+    from stommel.studies.errors import StudyError
+    from stommel.studies.running import fly_on_cluster
+    from stommel.studies.study import load_study
 
     study = load_study(write('kind = "monte_carlo"\nruns = 3\n' + UNIFORM))
     flights = fly_on_cluster(

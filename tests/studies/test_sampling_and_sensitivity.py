@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from stommel.simulation.studies.sampling import run_seed, run_values
-from stommel.simulation.studies.sensitivity import sensitivity_of
-from stommel.simulation.studies.study_file import StudyFile
+from stommel.studies.sampling import run_seed, run_values
+from stommel.studies.sensitivity import sensitivity_of
+from stommel.studies.study_file import StudyFile
 
 ANGLE = {"distribution": "uniform", "from": -pi, "to": pi}
 

@@ -6,8 +6,8 @@ from numpy.typing import NDArray
 from stommel.analysis.linear_equations import linearise_into
 from stommel.analysis.steady_equations import CONVERGED, QUANTITIES
 from stommel.analysis.wings_level import trim_into
-from stommel.dynamics.compilation import compiled
-from stommel.dynamics.state import Water
+from stommel.compilation import compiled
+from stommel.seawater.water import Water
 
 Complexes = NDArray[np.complex128]
 

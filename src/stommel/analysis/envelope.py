@@ -15,7 +15,7 @@ from stommel.analysis.steady_equations import ALPHA, CONVERGED, QUANTITIES, R_PX
 from stommel.analysis.trim import trim
 from stommel.analysis.wings_level import trim_at_ballast
 from stommel.dynamics.packing import pack, reference_water
-from stommel.dynamics.state import Water
+from stommel.seawater.water import Water
 from stommel.vehicle import PAPER, Physics, Vehicle
 
 

@@ -20,7 +20,7 @@ from stommel.analysis.steady_equations import (
     V,
     residuals,
 )
-from stommel.dynamics.state import Water
+from stommel.seawater.water import Water
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from stommel.analysis.linear_equations import LATERAL, linearise_into
 from stommel.analysis.steady_equations import ALPHA, CONVERGED, QUANTITIES, R_PX, THETA, V
 from stommel.analysis.wings_level import trim_at_ballast
+from stommel.compilation import compiled
 from stommel.control.flight_table import FlightTable
-from stommel.dynamics.compilation import compiled
 from stommel.dynamics.packing import pack, reference_water
-from stommel.dynamics.state import Water
 from stommel.errors import StommelError
+from stommel.seawater.water import Water
 from stommel.vehicle import FULL, Physics, Vehicle
 
 Array = NDArray[np.float64]

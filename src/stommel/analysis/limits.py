@@ -10,8 +10,8 @@ from stommel.analysis.flight import SteadyFlight, flight_from
 from stommel.analysis.steady_equations import ALPHA, CONVERGED, QUANTITIES, R_PX, V_B, V
 from stommel.analysis.wings_level import trim_many
 from stommel.dynamics.packing import pack
-from stommel.dynamics.state import Water
 from stommel.errors import StommelError
+from stommel.seawater.water import Water
 from stommel.vehicle import Physics, Vehicle
 
 SPEED_WEIGHT = 1 / 0.1

@@ -8,13 +8,14 @@ step through the equations of motion.
 import numpy as np
 
 from stommel.analysis.steady_equations import ALPHA, BETA, COMPLEX_STEP, DELTA_R, MU, PHI, R_PX, THETA, TURN, V_B, V
-from stommel.dynamics.attitude import quaternion_from_euler
-from stommel.dynamics.compilation import compiled, inlined
-from stommel.dynamics.elementary import cos, sin
+from stommel.compilation import compiled, inlined
 from stommel.dynamics.equations import rates
 from stommel.dynamics.inertia import factors_of, inertia, momenta, solve
-from stommel.dynamics.state import Actuation, State, Water
-from stommel.dynamics.vectors import down_in_body, scale
+from stommel.dynamics.state import Actuation, State
+from stommel.geometry.attitude import quaternion_from_euler
+from stommel.geometry.elementary import cos, sin
+from stommel.geometry.vectors import down_in_body, scale
+from stommel.seawater.water import Water
 
 U_, W_, Q_, THETA_, V_, P_, R_, PHI_ = range(8)
 STATES = ("u", "w", "q", "theta", "v", "p", "r", "phi")

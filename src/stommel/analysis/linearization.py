@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from stommel.analysis.flight import SteadyFlight
 from stommel.analysis.linear_equations import INPUTS, LATERAL, LONGITUDINAL, STATES, linearise_into
 from stommel.dynamics.packing import pack, reference_water
-from stommel.dynamics.state import Water
+from stommel.seawater.water import Water
 from stommel.vehicle import PAPER, Physics, Vehicle
 
 if TYPE_CHECKING:

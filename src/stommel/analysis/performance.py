@@ -11,7 +11,7 @@ from stommel.analysis.request import RequestError
 from stommel.analysis.steady_equations import CONVERGED, QUANTITIES
 from stommel.analysis.wings_level import trim_at_incidence
 from stommel.dynamics.packing import pack, reference_water
-from stommel.dynamics.state import Water
+from stommel.seawater.water import Water
 from stommel.vehicle import PAPER, Physics, Vehicle
 
 

@@ -15,8 +15,8 @@ from stommel.analysis.linearization import Linearization, linearise
 from stommel.analysis.request import RequestError
 from stommel.analysis.trim import trim
 from stommel.errors import StommelError
+from stommel.files.sentences import unit_of
 from stommel.vehicle import PAPER, Physics, Vehicle
-from stommel.vehicle.messages import unit_of
 
 POSITIONS = {
     "wing_position": "wing.aerodynamic_centre_aft_m",

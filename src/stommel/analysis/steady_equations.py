@@ -8,13 +8,14 @@ with exact derivatives (complex step through the equations of motion) answers th
 
 import numpy as np
 
-from stommel.dynamics.attitude import quaternion_from_euler
-from stommel.dynamics.compilation import compiled, inlined
-from stommel.dynamics.elementary import cos, sin, sqrt
+from stommel.compilation import compiled, inlined
 from stommel.dynamics.equations import rates
 from stommel.dynamics.inertia import momenta
-from stommel.dynamics.state import Actuation, State, Water
-from stommel.dynamics.vectors import down_in_body, scale
+from stommel.dynamics.state import Actuation, State
+from stommel.geometry.attitude import quaternion_from_euler
+from stommel.geometry.elementary import cos, sin, sqrt
+from stommel.geometry.vectors import down_in_body, scale
+from stommel.seawater.water import Water
 
 # the quantities
 V, ALPHA, BETA, PHI, THETA, TURN, R_PX, V_B, DELTA_R, MU = range(10)

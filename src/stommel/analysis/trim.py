@@ -20,7 +20,7 @@ from stommel.analysis.steady_equations import CONVERGED, QUANTITIES
 from stommel.analysis.turning import turn_of_settings
 from stommel.analysis.wings_level import TOO_SHALLOW, flight_of_settings, trim_into
 from stommel.dynamics.packing import pack, reference_water
-from stommel.dynamics.state import Water
+from stommel.seawater.water import Water
 from stommel.vehicle import PAPER, Physics, Vehicle
 
 

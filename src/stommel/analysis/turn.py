@@ -13,7 +13,7 @@ from stommel.analysis.steady_equations import CONVERGED, DELTA_R, MU, QUANTITIES
 from stommel.analysis.trim import trim
 from stommel.analysis.turning import turn_into
 from stommel.dynamics.packing import pack, reference_water
-from stommel.dynamics.state import Water
+from stommel.seawater.water import Water
 from stommel.vehicle import PAPER, Physics, Vehicle
 
 Steering = Literal["rudder", "roll"]

@@ -27,8 +27,8 @@ from stommel.analysis.steady_equations import (
     newton,
 )
 from stommel.analysis.wings_level import flight_of_settings, principal, trim_into
-from stommel.dynamics.compilation import compiled
-from stommel.dynamics.state import Water
+from stommel.compilation import compiled
+from stommel.seawater.water import Water
 
 _EQUATIONS = np.array([P_1, P_2, P_3, H_1, H_2, H_3])
 _CURVED_EQUATIONS = np.array([P_1, P_2, P_3, H_1, H_2, H_3, CURVATURE])

@@ -19,8 +19,8 @@ from stommel.analysis.steady_equations import (
     V,
     newton,
 )
-from stommel.dynamics.compilation import compiled, inlined
-from stommel.dynamics.state import Water
+from stommel.compilation import compiled, inlined
+from stommel.seawater.water import Water
 
 TOO_SHALLOW = 3
 """No angle of attack gives enough lift for its drag on so shallow a path."""

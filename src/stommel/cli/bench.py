@@ -11,7 +11,7 @@ from stommel.cli.options import JsonOption, VehicleArgument, load
 from stommel.cli.output import number, show_json, show_table, show_values
 
 if TYPE_CHECKING:
-    from stommel.design.bench import EngineFit, EngineLog, PressureReport, SpeedChoice, TimeLimit
+    from stommel.bench import EngineFit, EngineLog, PressureReport, SpeedChoice, TimeLimit
 
 bench_app = typer.Typer(help="Bench tests: logs of the buoyancy engine, pressure tests of the hull.")
 
@@ -55,7 +55,7 @@ def generate(
 
     Example: stommel bench generate zju --output build/bench.csv --seed 1
     """
-    from stommel.design.bench import BenchPlan, SensorNoise, bench_engine, generate_log, write_log
+    from stommel.bench import BenchPlan, SensorNoise, bench_engine, generate_log, write_log
 
     glider = load(vehicle)
     plan = BenchPlan(
@@ -91,7 +91,7 @@ def analyse(
 
     Example: stommel bench analyse build/bench.csv --plot build/bench
     """
-    from stommel.design.bench import bench_engine, performance, piston_area_of, time_limit_of
+    from stommel.bench import bench_engine, performance, piston_area_of, time_limit_of
 
     log = _read(logs, column_map, column, constant)
     engine = bench_engine(load(vehicle))
@@ -101,8 +101,8 @@ def analyse(
     choice, unanswered = _choice_of([run.point for run in runs], limit, area, margin)
     written: list[Path] = []
     if plot is not None:
-        from stommel.design.bench.performance_plot import performance_figure, response_figure
-        from stommel.design.plots import save_figure
+        from stommel.bench.performance_plot import performance_figure, response_figure
+        from stommel.figures.saving import save_figure
 
         shown = choice.chosen if choice is not None else None
         at = shown.motor_speed if shown is not None else runs[-1].point.motor_speed
@@ -153,7 +153,7 @@ def fit(
 
     Example: stommel bench fit build/bench.csv --plot build/bench-fit
     """
-    from stommel.design.bench import DEFAULT_PARAMETERS, bench_engine, fit_engine, performance, piston_area_of
+    from stommel.bench import DEFAULT_PARAMETERS, bench_engine, fit_engine, performance, piston_area_of
 
     log = _read(logs, column_map, column, constant)
     engine = bench_engine(load(vehicle))
@@ -161,9 +161,9 @@ def fit(
     found = fit_engine(runs, engine, tuple(parameter or DEFAULT_PARAMETERS), log.true_parameters)
     written: list[Path] = []
     if plot is not None:
-        from stommel.design.bench.fit_plot import fit_figure
-        from stommel.design.bench.performance_plot import performance_figure
-        from stommel.design.plots import save_figure
+        from stommel.bench.fit_plot import fit_figure
+        from stommel.bench.performance_plot import performance_figure
+        from stommel.figures.saving import save_figure
 
         written = save_figure(fit_figure(found, runs, generated=log.generated), plot)
         curves = performance_figure([run.point for run in runs], generated=log.generated, engine=found.engine)
@@ -192,7 +192,7 @@ def speed(
 
     Example: stommel bench speed zju --time-limit-s 90
     """
-    from stommel.design.bench import MARKER, bench_engine, choose_speed, model_points, time_limit_of
+    from stommel.bench import MARKER, bench_engine, choose_speed, model_points, time_limit_of
 
     engine = bench_engine(load(vehicle))
     points = model_points(
@@ -223,13 +223,13 @@ def pressure(
 
     Example: stommel bench pressure fan2013-table5 --plot build/table5
     """
-    from stommel.design.bench import judge, read_pressure_test
+    from stommel.bench import judge, read_pressure_test
 
     report = judge(read_pressure_test(table, description))
     written: list[Path] = []
     if plot is not None:
-        from stommel.design.bench.holding_plot import holding_figure
-        from stommel.design.plots import save_figure
+        from stommel.bench.holding_plot import holding_figure
+        from stommel.figures.saving import save_figure
 
         written = save_figure(holding_figure(report), plot)
     if as_json:
@@ -242,7 +242,7 @@ def pressure(
 def _read(
     logs: list[Path], column_map: Path | None, columns: list[str] | None, constants: list[str] | None
 ) -> "EngineLog":
-    from stommel.design.bench import joined, load_map, read_engine_log
+    from stommel.bench import joined, load_map, read_engine_log
 
     return joined([read_engine_log(log, load_map(log, column_map, columns or (), constants or ())) for log in logs])
 
@@ -253,7 +253,7 @@ def _head(log: "EngineLog") -> dict[str, Any]:
 
 def _choice_of(points: list[Any], limit: "TimeLimit", area: float, margin: float) -> "tuple[SpeedChoice | None, str]":
     """The choice, or why these runs allow none."""
-    from stommel.design.bench import BenchRequestError, choose_speed
+    from stommel.bench import BenchRequestError, choose_speed
 
     try:
         return choose_speed(points, limit, area, margin / 100), ""
@@ -295,7 +295,7 @@ def _show_choice(choice: "SpeedChoice | None", unanswered: str) -> None:
 
 
 def _show_fit(log: "EngineLog", found: "EngineFit") -> None:
-    from stommel.design.bench.wording import parameter_unit, parameter_words
+    from stommel.bench.wording import parameter_unit, parameter_words
 
     rows = []
     for one in found.parameters:

@@ -45,13 +45,13 @@ def budget(
     written: list[Path] = []
     if apply is not None:
         from stommel.design.budget import applied_text
-        from stommel.files import write_whole
+        from stommel.files.whole import write_whole
 
         write_whole(apply, applied_text(study, _text(vehicle)))
         written.append(apply)
     if plot is not None:
         from stommel.design.budget.figure import budget_figure
-        from stommel.design.plots import save_figure
+        from stommel.figures.saving import save_figure
 
         written += save_figure(budget_figure(study), plot)
     if as_json:

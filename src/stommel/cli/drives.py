@@ -11,7 +11,8 @@ from stommel.cli.options import JsonOption, VehicleArgument, load
 from stommel.cli.output import WIDTH, number, show_json, show_table, show_values
 
 if TYPE_CHECKING:
-    from stommel.design.drives import DriveStudy, PitchPoint, PitchStudy, RudderStudy
+    from stommel.design.drives import DriveStudy, PitchStudy, RudderStudy
+    from stommel.machinery.drives import PitchPoint
 
 
 def drives(
@@ -43,7 +44,7 @@ def drives(
     written: list[Path] = []
     if plot is not None:
         from stommel.design.drives.figure import drives_figure
-        from stommel.design.plots import save_figure
+        from stommel.figures.saving import save_figure
 
         written = save_figure(drives_figure(study), plot)
     if as_json:

@@ -9,7 +9,7 @@ from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, Vehicl
 from stommel.cli.output import number, show_json, show_table, show_values
 
 if TYPE_CHECKING:
-    from stommel.design.energy import BestFlight, EnergyStudy, Gap, Sensitivity
+    from stommel.design.endurance import BestFlight, EnergyStudy, Gap, Sensitivity
 
 MOST_SHOWN = 12
 
@@ -36,7 +36,7 @@ def endurance(
 
     Example: stommel endurance zju --depth 200 --speed 0.4 --pitch -35
     """
-    from stommel.design.energy import energy_study
+    from stommel.design.endurance import energy_study
 
     study = energy_study(
         load(vehicle),
@@ -48,8 +48,8 @@ def endurance(
     )
     written: list[Path] = []
     if plot is not None:
-        from stommel.design.energy.figure import endurance_figure
-        from stommel.design.plots import save_figure
+        from stommel.design.endurance.figure import endurance_figure
+        from stommel.figures.saving import save_figure
 
         written = save_figure(endurance_figure(study), plot)
     if as_json:
@@ -172,7 +172,7 @@ def _show_sensitivity(study: "EnergyStudy") -> None:
 def _show_assumptions(study: "EnergyStudy") -> None:
     from rich.markup import escape
 
-    from stommel.design.energy.study import MODEL_ASSUMPTIONS
+    from stommel.design.endurance.study import MODEL_ASSUMPTIONS
 
     assumed = [one.assumption for one in study.sensitivities if one.assumption.origin.kind != "source"]
     rows = [

@@ -10,7 +10,7 @@ from stommel.cli.output import number, show_json, show_table, show_values
 from stommel.errors import OutputError
 
 if TYPE_CHECKING:
-    from stommel.design.engine import EngineRun, PhaseResult
+    from stommel.machinery.engine import EngineRun, PhaseResult
 
 SAMPLES = 121
 
@@ -40,7 +40,7 @@ def engine(
 
     Example: stommel engine zju --pressure-mpa 2.0 --inflate-ml 500
     """
-    from stommel.design.engine import engine_of, load_engine, simulate
+    from stommel.machinery.engine import engine_of, load_engine, simulate
 
     named = load_engine(other) if other is not None else engine_of(load(vehicle))
     if inflate is None and deflate is None:
@@ -58,7 +58,7 @@ def engine(
     stall = None
     inflated = run.phase("inflate")
     if inflated is not None and inflated.outcome.stalled and not ideal:
-        from stommel.design.engine import stall_pressure
+        from stommel.machinery.engine import stall_pressure
 
         stall = stall_pressure(named.engine, motor_speed_rpm=motor_speed)
     written = _plotted(run, plot) if plot is not None else []
@@ -72,7 +72,7 @@ def engine(
 
 def _wanted(what: str, volume_ml: float | None) -> float:
     """Volume in m3; refuses one that was given and moves nothing."""
-    from stommel.design.engine import EngineRequestError
+    from stommel.machinery.engine import EngineRequestError
 
     if volume_ml is None:
         return 0.0
@@ -82,8 +82,8 @@ def _wanted(what: str, volume_ml: float | None) -> float:
 
 
 def _plotted(run: "EngineRun", path: Path) -> list[Path]:
-    from stommel.design.engine import engine_figure
-    from stommel.design.plots import save_figure
+    from stommel.design.engine.engine_plot import engine_figure
+    from stommel.figures.saving import save_figure
 
     if not path.name:
         raise OutputError(f"{path}: cannot be written: it is a folder")

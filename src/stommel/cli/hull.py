@@ -44,7 +44,7 @@ def hull(
     plots = []
     if plot is not None:
         from stommel.design.hull.plot import hull_figure
-        from stommel.design.plots import save_figure
+        from stommel.figures.saving import save_figure
 
         plots = [str(path) for path in save_figure(hull_figure(study), plot.with_suffix(""))]
     if as_json:

@@ -94,7 +94,7 @@ def show(
     summary = found.summary()
     plots: list[Path] = []
     if plot is not None:
-        from stommel.design.plots import save_figure
+        from stommel.figures.saving import save_figure
 
         plots = save_figure(_figure(found, when, depth, place), plot)
     if as_json:
@@ -114,7 +114,7 @@ def list_oceans(as_json: JsonOption = False) -> None:
 
     Example: stommel ocean list
     """
-    from stommel.ocean.analytic import ANALYTIC
+    from stommel.ocean.analytic.catalogue import ANALYTIC
 
     rows: dict[str, dict[str, Any]] = {
         name: {"summary": (kind.__doc__ or "").strip(), "parameters": _defaults(kind)}
@@ -135,7 +135,7 @@ def _defaults(kind: Any) -> dict[str, float | None]:
 def _open(given: list[str], choice: dict[str, Any], policies: dict[str, Any]) -> "Ocean":
     """Open the ocean of that name, or else the files."""
     from stommel.ocean import Ocean
-    from stommel.ocean.analytic import ANALYTIC
+    from stommel.ocean.analytic.catalogue import ANALYTIC
 
     if given[0] in ANALYTIC:
         if len(given) > 1:
@@ -197,8 +197,8 @@ def _between(text: str | None) -> tuple[str, str] | None:
 
 
 def _figure(found: "Ocean", when: float, depth: float, place: tuple[float, float] | None) -> "Figure":
-    from stommel.design.plots.style import new_figure, styled
-    from stommel.ocean.drawing import draw_ocean
+    from stommel.figures.style import new_figure, styled
+    from stommel.ocean.pictures.drawing import draw_ocean
 
     @styled
     def figure_of() -> "Figure":

@@ -15,8 +15,8 @@ from stommel.cli.output import number, show_json, show_table, show_values
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn
 
+    from stommel.planning.mission import Mission
     from stommel.simulation.flight import Flown
-    from stommel.simulation.mission import Mission
 
 _FIRST_DAYS = 0.02
 """Flown once before the time is taken, so that compiling and loading are not in it."""
@@ -51,9 +51,9 @@ def simulate(
         return
     if mission is None:
         raise typer.BadParameter("give a mission file or a shipped mission; --list shows these", param_hint="MISSION")
-    from stommel.simulation.loading import load_mission
-    from stommel.simulation.shipped import mission_path
-    from stommel.simulation.summary import summary
+    from stommel.simulation.results.summary import summary
+    from stommel.simulation.scenario.loading import load_mission
+    from stommel.simulation.scenario.shipped import mission_path
 
     loaded = load_mission(mission_path(mission))
     if seed is not None:
@@ -74,7 +74,7 @@ def simulate(
 
 
 def _list(as_json: bool) -> None:
-    from stommel.simulation.shipped import shipped_missions
+    from stommel.simulation.scenario.shipped import shipped_missions
 
     names = shipped_missions()
     if as_json:
@@ -161,7 +161,7 @@ def _speed_column() -> "ProgressColumn":
 def _write(flown: "Flown", output: Path | None, plots: Path | None) -> list[Path]:
     if output is None and plots is None:
         return []
-    from stommel.simulation.results import dataset_of, write_netcdf
+    from stommel.simulation.results.dataset import dataset_of, write_netcdf
 
     dataset, written = dataset_of(flown), []
     if output is not None:

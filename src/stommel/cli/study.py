@@ -13,7 +13,7 @@ from stommel.cli.options import JsonOption
 from stommel.cli.output import show_json, show_table
 
 if TYPE_CHECKING:
-    from stommel.simulation.studies.run import Finished
+    from stommel.studies.run import Finished
 
 _SHOWN = 12
 """Outputs in the table of sensitivities; all are in the result and in --json."""
@@ -37,9 +37,9 @@ def study(
 
     Example: stommel study drift.toml --output drift.nc
     """
-    from stommel.simulation.studies.errors import StudyInterruptedError
-    from stommel.simulation.studies.run import run_study
-    from stommel.simulation.studies.study import load_study
+    from stommel.studies.errors import StudyInterruptedError
+    from stommel.studies.run import run_study
+    from stommel.studies.study import load_study
 
     loaded = load_study(file)
     target = output if output is not None else Path(f"{file.stem}.nc")

@@ -105,7 +105,7 @@ def new(
 ) -> None:
     """Begin a vehicle file from a built-in one."""
     from stommel.errors import OutputError
-    from stommel.files import write_whole
+    from stommel.files.whole import write_whole
     from stommel.vehicle import UnknownVehicleError, builtin_names, builtin_text
 
     if like not in builtin_names():

@@ -8,8 +8,8 @@ steady flight. Before that, while it gathers way or turns, its speed along the p
 
 import math
 
+from stommel.compilation import compiled
 from stommel.control.flight_table import FlightTable, look_up
-from stommel.dynamics.compilation import compiled
 
 _STEEP_ENOUGH = math.radians(8.0)
 _SETTLED = 60.0

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from stommel.dynamics.compilation import compiled, inlined
+from stommel.compilation import compiled, inlined
 
 SURFACE, DESCENT, INFLECTION, ASCENT, RECOVERY, DRIFT = range(6)
 PHASES = ("surface", "descent", "inflection", "ascent", "recovery", "drift")

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from stommel.dynamics.compilation import compiled, inlined
+from stommel.compilation import compiled, inlined
 
 
 class FlightTable(NamedTuple):

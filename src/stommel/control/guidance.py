@@ -2,27 +2,7 @@
 
 import math
 
-from stommel.control.laws import wrapped
-from stommel.dynamics.compilation import compiled, inlined
-
-SEMI_MAJOR, FLATTENING = 6378137.0, 1.0 / 298.257223563
-"""WGS 84."""
-
-
-@inlined
-def metres_per_radian(latitude: float) -> tuple[float, float]:
-    """North and east metres per radian of latitude and longitude on the WGS 84 ellipsoid, at `latitude` [rad]."""
-    e2 = FLATTENING * (2.0 - FLATTENING)
-    w = 1.0 - e2 * math.sin(latitude) ** 2
-    N = SEMI_MAJOR / math.sqrt(w)
-    return N * (1.0 - e2) / w, N * math.cos(latitude)
-
-
-@compiled
-def to_waypoint(latitude: float, longitude: float, goal_latitude: float, goal_longitude: float) -> tuple[float, float]:
-    """North and east metres to a waypoint, on the ellipsoid at mid latitude; good to 1e-4 within 100 km."""
-    m_north, m_east = metres_per_radian(0.5 * (latitude + goal_latitude))
-    return (goal_latitude - latitude) * m_north, wrapped(goal_longitude - longitude) * m_east
+from stommel.compilation import compiled
 
 
 @compiled

@@ -6,9 +6,7 @@ Each has a dead band: a battery is not spent on the last tenth of a degree.
 import math
 from typing import NamedTuple
 
-from stommel.dynamics.compilation import compiled, inlined
-
-TURN = 2.0 * math.pi
+from stommel.compilation import compiled
 
 ENDABLE = 0.5
 """Part of the turn rate at which full steering just holds an unstable spiral, up to which the vehicle is told to turn.
@@ -52,12 +50,6 @@ class DriftLaw(NamedTuple):
     """Distance from the depth that is left alone [m]."""
     period: float
     """Time between corrections [s]."""
-
-
-@inlined
-def wrapped(angle: float) -> float:
-    """The angle in (-pi, pi]."""
-    return angle - TURN * math.ceil((angle - math.pi) / TURN)
 
 
 @compiled

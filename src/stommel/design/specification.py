@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from stommel.analysis import UnreachableFlightError, flight_envelope, trim_table
-from stommel.design.energy import endurance
+from stommel.design.endurance import endurance
 from stommel.errors import StommelError
 from stommel.vehicle import Physics, Vehicle
 

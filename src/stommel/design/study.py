@@ -34,10 +34,10 @@ from stommel.analysis import (
     trim_table,
     turn,
 )
-from stommel.design.bench.speed_study import SpeedStudy, speed_study
+from stommel.bench.speed_study import SpeedStudy, speed_study
 from stommel.design.budget import BudgetStudy, budget_study
 from stommel.design.drives import DriveStudy, drive_study
-from stommel.design.energy import EnergyStudy, energy_study
+from stommel.design.endurance import EnergyStudy, energy_study
 from stommel.design.engine.study import EngineStudy, engine_study
 from stommel.design.hull.study import HullStudy, hull_study
 from stommel.design.published import PublishedRow, published_tables

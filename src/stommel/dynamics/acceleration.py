@@ -8,11 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stommel.dynamics.compilation import compiled, inlined
+from stommel.compilation import compiled, inlined
 from stommel.dynamics.equations import rates
 from stommel.dynamics.inertia import Velocities, momenta, moving_mass_position, velocities
-from stommel.dynamics.state import Actuation, State, Water
-from stommel.dynamics.vectors import Quaternion, Vector, cross
+from stommel.dynamics.state import Actuation, State
+from stommel.geometry.vectors import Quaternion, Vector, cross
+from stommel.seawater.water import Water
 
 COMPLEX_STEP = 1e-40
 

@@ -6,7 +6,7 @@ of the vehicle's parameters (`stommel.vehicle.Physics`), so that the equations b
 
 import numpy as np
 
-from stommel.dynamics.compilation import compiled, inlined
+from stommel.compilation import compiled, inlined
 from stommel.dynamics.hydrodynamics import viscous_forces
 from stommel.dynamics.inertia import (
     Factors,
@@ -16,8 +16,8 @@ from stommel.dynamics.inertia import (
     particle_momentum,
     velocities_by,
 )
-from stommel.dynamics.state import Actuation, State, Water
-from stommel.dynamics.vectors import (
+from stommel.dynamics.state import Actuation, State
+from stommel.geometry.vectors import (
     Vector,
     add,
     cross,
@@ -30,6 +30,7 @@ from stommel.dynamics.vectors import (
     to_inertial,
     transpose_times,
 )
+from stommel.seawater.water import Water
 
 
 @inlined

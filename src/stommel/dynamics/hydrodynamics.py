@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stommel.dynamics.compilation import inlined
-from stommel.dynamics.elementary import asin, atan2, real_part, sqrt
-from stommel.dynamics.vectors import Vector, add, scale, subtract
+from stommel.compilation import inlined
+from stommel.geometry.elementary import asin, atan2, real_part, sqrt
+from stommel.geometry.vectors import Vector, add, scale, subtract
 
 
 class ViscousForces(NamedTuple):

@@ -16,10 +16,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stommel.dynamics.compilation import inlined
-from stommel.dynamics.elementary import cos, sin
-from stommel.dynamics.state import Actuation, State, Water
-from stommel.dynamics.vectors import (
+from stommel.compilation import inlined
+from stommel.dynamics.state import Actuation, State
+from stommel.geometry.elementary import cos, sin
+from stommel.geometry.vectors import (
     Matrix,
     Symmetric,
     Vector,
@@ -34,6 +34,7 @@ from stommel.dynamics.vectors import (
     to_body,
     transpose_times,
 )
+from stommel.seawater.water import Water
 
 
 class Inertia(NamedTuple):

@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from stommel.dynamics.compilation import compiled
+from stommel.compilation import compiled
 from stommel.dynamics.equations import rates, state_from_array, state_into_array
-from stommel.dynamics.state import STATE_SIZE, Actuation, Water
+from stommel.dynamics.state import STATE_SIZE, Actuation
+from stommel.seawater.water import Water
 
 
 @compiled

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.dynamics.parameters import parameter_record
-from stommel.dynamics.state import Water
+from stommel.seawater.water import Water
 from stommel.vehicle import Physics, Vehicle, VehicleFile
 from stommel.vehicle.checks import rigid_body_inertia_about_origin, skew
 

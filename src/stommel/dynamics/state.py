@@ -1,4 +1,4 @@
-"""What moves, what drives it, and the water around it: the three inputs of x' = f(x, u, environment).
+"""What moves and what drives it: the state and the inputs of x' = f(x, u, environment).
 
 The state is the paper's: position, attitude, and the *momenta* of Eqs. (4)-(6), not the velocities. A prescribed motion
 of the moving mass or a jump of its speed then needs no acceleration, momentum stays conserved through it, and the
@@ -7,7 +7,7 @@ equations stand as printed. `velocities` and `momenta` (in `stommel.dynamics.ine
 
 from typing import NamedTuple
 
-from stommel.dynamics.vectors import Quaternion, Vector
+from stommel.geometry.vectors import Quaternion, Vector
 
 STATE_SIZE = 16
 """Length of a flat state: X 0:3, Q 3:7, p 7:10, h 10:13, r_px 13, p_px 14, V_b 15."""
@@ -50,18 +50,3 @@ class Actuation(NamedTuple):
     """Roll angle of the moving mass about b1 [rad]; positive swings it to port."""
     mu_dot: float = 0.0
     """Rate of `mu` [rad/s]."""
-
-
-class Water(NamedTuple):
-    """The water at the vehicle; SI units, vectors in the inertial frame (north, east, down)."""
-
-    rho: float
-    """Density [kg/m3]."""
-    P: float = 0.0
-    """Gauge pressure [Pa], which compresses the hull."""
-    T: float = 15.0
-    """Temperature [deg C], which expands the hull."""
-    U: Vector = (0.0, 0.0, 0.0)
-    """Current velocity [m/s]."""
-    DU_Dt: Vector = (0.0, 0.0, 0.0)
-    """Acceleration of the water particle, dU/dt + (U . grad) U [m/s2]."""

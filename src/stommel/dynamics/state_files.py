@@ -9,12 +9,12 @@ from typing import Annotated, Any
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from stommel.dynamics.acceleration import accelerations, state_of
-from stommel.dynamics.attitude import euler_rates, quaternion_from_euler
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import Actuation
 from stommel.errors import FileError, Problem, StommelError
+from stommel.files.sentences import dotted, sentence
+from stommel.geometry.attitude import euler_rates, quaternion_from_euler
 from stommel.vehicle import Physics, Vehicle
-from stommel.vehicle.messages import dotted, sentence
 
 Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Triple = tuple[Finite, Finite, Finite]

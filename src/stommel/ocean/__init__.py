@@ -1,6 +1,6 @@
 """The ocean around a mission: temperature, salinity, currents and bottom depth in space and time.
 
-Compiled code uses `stommel.ocean.grid` and `stommel.ocean.column`.
+Compiled code uses `stommel.ocean.kernel.grid` and `stommel.ocean.kernel.column`.
 """
 
 from stommel.ocean.answers import Sample

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from stommel.errors import StommelError
 from stommel.ocean import times
 from stommel.ocean.errors import BelowBottomError, LandError, OutsideOceanError
-from stommel.ocean.grid import (
+from stommel.ocean.kernel.grid import (
     CLIMATOLOGY,
     CT_ROW,
     EAST,
@@ -27,8 +27,8 @@ from stommel.ocean.grid import (
     OceanGrid,
     P,
 )
+from stommel.ocean.kernel.weight import PASCAL_PER_DECIBAR
 from stommel.ocean.summary import extent_of
-from stommel.ocean.weight import PASCAL_PER_DECIBAR
 from stommel.seawater import properties
 
 DEEPEST = 11300.0

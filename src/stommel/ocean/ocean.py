@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from stommel.ocean import times
 from stommel.ocean.answers import DEEPEST, Region, Sample, Source, depth_refusal, refusal, sample_of
-from stommel.ocean.column import fill_column
 from stommel.ocean.errors import LandError, OutsideOceanError, UnknownOceanError
-from stommel.ocean.grid import (
+from stommel.ocean.kernel.column import fill_column
+from stommel.ocean.kernel.grid import (
     BOTTOM,
     CLIMATOLOGY,
     CT_ROW,
@@ -28,7 +28,7 @@ from stommel.ocean.grid import (
     new_cell,
     new_column,
 )
-from stommel.ocean.outside import policy, with_policies
+from stommel.ocean.kernel.outside import policy, with_policies
 from stommel.ocean.summary import around, node_places, ranges_of, summary_of
 from stommel.ocean.times import Time
 from stommel.seawater.stratification import Stratification
@@ -116,7 +116,7 @@ class Ocean:
         UnknownOceanError
             A policy, name or option is unknown, or does not fit.
         """
-        from stommel.ocean.opening import open_ocean  # noqa: PLC0415 - xarray takes time to load
+        from stommel.ocean.reading.opening import open_ocean  # noqa: PLC0415 - xarray takes time to load
 
         policy(outside)  # a wrong word is said before a large file is read
         at_times = policy(outside if outside_time is None else outside_time, "outside_time")
@@ -130,14 +130,14 @@ class Ocean:
 
     @classmethod
     def analytic(cls, name: str, **parameters: Any) -> Self:
-        """Make an analytic ocean, see `stommel.ocean.analytic.ANALYTIC` for names and parameters.
+        """Make an analytic ocean, see `stommel.ocean.analytic.catalogue.ANALYTIC` for names and parameters.
 
         Raises
         ------
         UnknownOceanError
             The name or a parameter is unknown, or a value is not allowed.
         """
-        from stommel.ocean.analytic import build_analytic  # noqa: PLC0415 - it imports geodesy
+        from stommel.ocean.analytic.catalogue import build_analytic  # noqa: PLC0415 - it imports geodesy
 
         data, notes = build_analytic(name, parameters)
         return cls(name, data, notes)
@@ -182,7 +182,7 @@ class Ocean:
 
     def _second(self, climatology: "Ocean | Source", folder: Path | None) -> "Ocean":
         """Open the ocean behind this one."""
-        from stommel.ocean.analytic import ANALYTIC  # noqa: PLC0415 - it imports geodesy
+        from stommel.ocean.analytic.catalogue import ANALYTIC  # noqa: PLC0415 - it imports geodesy
 
         if isinstance(climatology, Ocean):
             return climatology
@@ -191,7 +191,7 @@ class Ocean:
         return Ocean.open(climatology, folder=folder, outside_time="hold", bounds=around(self.data))
 
     def grid(self) -> OceanGrid:
-        """Return the arrays for `stommel.ocean.column.fill_column`."""
+        """Return the arrays for `stommel.ocean.kernel.column.fill_column`."""
         return self.data
 
     @cached_property

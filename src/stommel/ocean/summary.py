@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.ocean import times
-from stommel.ocean.chart import project
-from stommel.ocean.grid import CLIMATOLOGY, CT, S_A, U_X, U_Y, UNBOUNDED_DEPTH, Nodes, OceanGrid, T
-from stommel.ocean.outside import POLICY_NAMES
-from stommel.ocean.unproject import unproject
+from stommel.ocean.kernel.chart import project
+from stommel.ocean.kernel.grid import CLIMATOLOGY, CT, S_A, U_X, U_Y, UNBOUNDED_DEPTH, Nodes, OceanGrid, T
+from stommel.ocean.kernel.outside import POLICY_NAMES
+from stommel.ocean.kernel.unproject import unproject
 from stommel.seawater.table import DensityTable, Range
 
 _DEEPEST = 11900.0

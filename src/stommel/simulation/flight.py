@@ -8,13 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.analysis.flight_table import flight_table
+from stommel.compilation import compiled
 from stommel.dynamics.acceleration import state_of
-from stommel.dynamics.attitude import quaternion_from_euler
-from stommel.dynamics.compilation import compiled
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import Actuation
-from stommel.dynamics.vectors import Quaternion
-from stommel.ocean.grid import new_cell, new_column
+from stommel.geometry.attitude import quaternion_from_euler
+from stommel.geometry.vectors import Quaternion
+from stommel.ocean.kernel.grid import new_cell, new_column
+from stommel.planning.mission import Mission
 from stommel.simulation.memory import (
     CELL,
     EVENT_COLUMNS,
@@ -29,14 +30,13 @@ from stommel.simulation.memory import (
     SURFACINGS,
     Log,
 )
-from stommel.simulation.mission import Mission
-from stommel.simulation.mission_file import MissionFile
 from stommel.simulation.mission_loop import OUTCOMES, RUNNING, Equipment, Sea, fly
-from stommel.simulation.parameters import Loop, Plant
-from stommel.simulation.plant import plant_of
+from stommel.simulation.plant.building import plant_of
+from stommel.simulation.plant.hull_air import KELVIN
+from stommel.simulation.plant.parameters import Loop, Plant
+from stommel.simulation.plant.waves import waves_of
+from stommel.simulation.scenario.mission_file import MissionFile
 from stommel.simulation.settings import column_step, dive_plan, hull_of, loop_of, orders_of, sensors_of
-from stommel.simulation.surroundings import KELVIN
-from stommel.simulation.waves import waves_of
 from stommel.vehicle import PHYSICS
 
 Array = NDArray[np.float64]
@@ -49,7 +49,7 @@ _PIECE_DAYS = 0.5
 
 @dataclass(frozen=True)
 class Flown:
-    """What came out of a mission, as plain arrays; `stommel.simulation.results` makes a Dataset of it."""
+    """What came out of a mission, as plain arrays; `stommel.simulation.results.dataset` makes a Dataset of it."""
 
     mission: Mission
     record: Array

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from stommel.simulation.mission_file import LONGEST_LATENCY
-from stommel.simulation.parameters import CONSUMERS
+from stommel.simulation.plant.parameters import CONSUMERS
+from stommel.simulation.scenario.mission_file import LONGEST_LATENCY
 
 Array = NDArray[np.float64]
 

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from stommel.compilation import compiled, inlined
 from stommel.control.dive_cycle import (
     INFLECTION,
     MISSION_COMPLETE,
@@ -16,22 +17,21 @@ from stommel.control.dive_cycle import (
     Readings,
 )
 from stommel.control.flight_table import FlightTable, look_up
-from stommel.control.guidance import metres_per_radian
-from stommel.dynamics.compilation import compiled, inlined
 from stommel.dynamics.equations import state_from_array
 from stommel.dynamics.state import STATE_SIZE
-from stommel.ocean.column import fill_column, water_at
-from stommel.ocean.grid import BOTTOM, HELD, LAND, TIME, Column, OceanGrid
+from stommel.geometry.attitude import attitude_of
+from stommel.geometry.earth import metres_per_radian
+from stommel.ocean.kernel.column import fill_column, water_at
+from stommel.ocean.kernel.grid import BOTTOM, HELD, LAND, TIME, Column, OceanGrid
 from stommel.seawater.table import DensityTable
-from stommel.simulation.acting import actuate
-from stommel.simulation.instruments import Alarms, Hull, Sensors, Waves
 from stommel.simulation.memory import CELL, Log
-from stommel.simulation.moving import advance
-from stommel.simulation.parameters import Loop, Plant
-from stommel.simulation.powering import consume, measured_power
-from stommel.simulation.sensing import (
+from stommel.simulation.plant.actuators import actuate
+from stommel.simulation.plant.hull_air import antenna_emerges, hold_air
+from stommel.simulation.plant.motion import advance
+from stommel.simulation.plant.parameters import Loop, Plant
+from stommel.simulation.plant.power import consume, measured_power
+from stommel.simulation.plant.sensing import (
     altimeter,
-    attitude_of,
     compass,
     depth_sensor,
     feel_temperature,
@@ -39,6 +39,8 @@ from stommel.simulation.sensing import (
     late,
     measured_internal_pressure,
 )
+from stommel.simulation.plant.sensors import Alarms, Hull, Sensors, Waves
+from stommel.simulation.results.rows import write_event, write_row, write_sample, write_surfacing
 from stommel.simulation.software import (
     Laws,
     command,
@@ -51,8 +53,6 @@ from stommel.simulation.software import (
     surface,
     watch,
 )
-from stommel.simulation.surroundings import antenna_emerges, hold_air
-from stommel.simulation.writing import write_event, write_row, write_sample, write_surfacing
 
 GUIDANCE_PERIOD = 10.0
 """Between two looks at the waypoint [s]."""

@@ -9,14 +9,14 @@ from stommel.analysis.flight_table import fastest_mode
 from stommel.control.dive_cycle import PHASES, DivePlan
 from stommel.control.flight_table import FlightTable, look_up
 from stommel.control.laws import DriftLaw, HeadingLaw, PitchLaw
-from stommel.simulation.ballasting import ballast_volumes, drives, mass_position_at_rest, neutral_volumes
-from stommel.simulation.instruments import Alarms, Hull, Sensors
-from stommel.simulation.mission import Mission
-from stommel.simulation.mission_file import MissionFile
+from stommel.planning.ballasting import ballast_volumes, drives, mass_position_at_rest, neutral_volumes
+from stommel.planning.mission import Mission
 from stommel.simulation.mission_loop import GUIDANCE_PERIOD, Orders
-from stommel.simulation.parameters import Loop, Plant
+from stommel.simulation.plant.hull_air import KELVIN
+from stommel.simulation.plant.parameters import Loop, Plant
+from stommel.simulation.plant.sensors import Alarms, Hull, Sensors
+from stommel.simulation.scenario.mission_file import MissionFile
 from stommel.simulation.software import Laws
-from stommel.simulation.surroundings import KELVIN
 from stommel.vehicle import PHYSICS
 
 Array = NDArray[np.float64]

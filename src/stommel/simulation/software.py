@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from stommel.compilation import inlined
 from stommel.control.dead_reckoning import depth_averaged_current, path_speed
 from stommel.control.dive_cycle import (
     ABORT_BATTERY,
@@ -24,20 +25,13 @@ from stommel.control.dive_cycle import (
     wanted_pitch,
 )
 from stommel.control.flight_table import FlightTable, look_up, look_up_turning
-from stommel.control.guidance import course_to_steer, metres_per_radian, to_waypoint
-from stommel.control.laws import (
-    DriftLaw,
-    HeadingLaw,
-    PitchLaw,
-    drift_correction,
-    pitch_correction,
-    steering_command,
-    wrapped,
-)
-from stommel.dynamics.compilation import inlined
-from stommel.simulation.acting import Commands
-from stommel.simulation.instruments import Alarms, Sensors
-from stommel.simulation.sensing import Heading
+from stommel.control.guidance import course_to_steer
+from stommel.control.laws import DriftLaw, HeadingLaw, PitchLaw, drift_correction, pitch_correction, steering_command
+from stommel.geometry.attitude import wrapped
+from stommel.geometry.earth import metres_per_radian, to_waypoint
+from stommel.simulation.plant.actuators import Commands
+from stommel.simulation.plant.sensing import Heading
+from stommel.simulation.plant.sensors import Alarms, Sensors
 
 TURNING_FILTER = 0.2
 """Weight of a new difference of heading in the heading rate, per decision of one second: a rudder that follows the

@@ -1,5 +1,6 @@
 """What a glider is: validated description, loading, provenance, built-in vehicles."""
 
+from stommel.files.provenance import Provenance
 from stommel.vehicle.loading import (
     LateralPlaneUnknownError,
     UnknownVehicleError,
@@ -11,7 +12,6 @@ from stommel.vehicle.loading import (
     vehicle_from_text,
 )
 from stommel.vehicle.physics import FULL, PAPER, PHYSICS, Physics
-from stommel.vehicle.provenance import Provenance
 from stommel.vehicle.schema import VehicleFile
 
 __all__ = [

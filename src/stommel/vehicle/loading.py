@@ -12,9 +12,9 @@ from typing import Any
 from pydantic import ValidationError
 
 from stommel.errors import FileError, Problem, StommelError
+from stommel.files.provenance import NOT_STATED, Provenance, ProvenanceError, numbers, separate
+from stommel.files.sentences import sentences
 from stommel.vehicle.checks import problems
-from stommel.vehicle.messages import sentences
-from stommel.vehicle.provenance import NOT_STATED, Provenance, ProvenanceError, numbers, separate
 from stommel.vehicle.schema import VehicleFile
 
 _BUILTIN = "builtin"

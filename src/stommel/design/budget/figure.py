@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.design.budget.study import BudgetStudy
-from stommel.design.plots.style import (
+from stommel.figures.style import (
     BLUE,
     FAINT,
     INK,

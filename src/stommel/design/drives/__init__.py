@@ -1,21 +1,6 @@
-"""Drives of the moving mass and of the rudder (section 4.3.3 of the paper): speed, torque, current, energy, safety."""
+"""Do the drives do what the design asks: pitch, rudder, trim change, and the figure."""
 
-from stommel.design.drives.failures import DriveError
-from stommel.design.drives.pitch import PitchDrive, PitchPoint
-from stommel.design.drives.rudder import RudderDrive, RudderStep, RudderTurn
 from stommel.design.drives.study import DriveStudy, PitchStudy, RudderStudy, drive_study
 from stommel.design.drives.trim_change import TrimChange
 
-__all__ = [
-    "DriveError",
-    "DriveStudy",
-    "PitchDrive",
-    "PitchPoint",
-    "PitchStudy",
-    "RudderDrive",
-    "RudderStep",
-    "RudderStudy",
-    "RudderTurn",
-    "TrimChange",
-    "drive_study",
-]
+__all__ = ["DriveStudy", "PitchStudy", "RudderStudy", "TrimChange", "drive_study"]

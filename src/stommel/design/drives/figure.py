@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stommel.design.drives.pitch import Direction, PitchPoint
 from stommel.design.drives.study import DriveStudy, PitchStudy, RudderStudy
-from stommel.design.plots.style import BLUE, CYCLE, DASHES, FAINT, INK, MUTED, VERMILION, new_figure, number, styled
+from stommel.figures.style import BLUE, CYCLE, DASHES, FAINT, INK, MUTED, VERMILION, new_figure, number, styled
+from stommel.machinery.drives.pitch import Direction, PitchPoint
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

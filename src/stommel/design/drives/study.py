@@ -5,13 +5,13 @@ from dataclasses import dataclass
 from math import degrees, isfinite, radians
 
 from stommel.analysis.trim import trim
-from stommel.design.drives.failures import DriveError
-from stommel.design.drives.limit_switches import LimitSwitches, OverRun, over_run
-from stommel.design.drives.pitch import PitchDrive, PitchPoint
-from stommel.design.drives.rudder import RudderDrive, RudderStep, RudderTurn
 from stommel.design.drives.trim_change import TrimChange, pitches_between, trim_change
 from stommel.design.named_warning import NamedWarning
 from stommel.errors import StommelError
+from stommel.machinery.drives.failures import DriveError
+from stommel.machinery.drives.limit_switches import LimitSwitches, OverRun, over_run
+from stommel.machinery.drives.pitch import PitchDrive, PitchPoint
+from stommel.machinery.drives.rudder import RudderDrive, RudderStep, RudderTurn
 from stommel.vehicle import Vehicle
 
 DEFAULT_SPEED_M_S, DEFAULT_PITCH_DEG, DEFAULT_STEEPEST_DEG, DEFAULT_RUDDER_DEG = 0.4, 35.0, 50.0, 30.0

@@ -6,7 +6,7 @@ from math import degrees, radians, tan
 import numpy as np
 
 from stommel.analysis.flight import SteadyFlight
-from stommel.design.drives.pitch import Direction, PitchDrive
+from stommel.machinery.drives.pitch import Direction, PitchDrive
 
 STEPS = 200
 

@@ -4,8 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from stommel.design.engine.results import EngineRun
-from stommel.design.plots.style import (
+from stommel.figures.style import (
     BLUE,
     CYCLE,
     DASHES,
@@ -19,6 +18,7 @@ from stommel.design.plots.style import (
     number,
     styled,
 )  # fmt: skip
+from stommel.machinery.engine.results import EngineRun
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from stommel.design.engine.files import engine_of
-from stommel.design.engine.results import EngineRun
-from stommel.design.engine.simulation import simulate
-from stommel.design.engine.stall import stall_pressure
+from stommel.machinery.engine.cycle import simulate
+from stommel.machinery.engine.files import engine_of
+from stommel.machinery.engine.results import EngineRun
+from stommel.machinery.engine.stall import stall_pressure
 from stommel.vehicle import Vehicle
 
 DEFAULT_DEPTH_M = 200.0

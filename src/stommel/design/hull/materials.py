@@ -11,10 +11,10 @@ from typing import Annotated, Any, Self
 from pydantic import Field, ValidationError, model_validator
 
 from stommel.errors import FileError, Problem, StommelError
+from stommel.files.fields import Finite, Positive, Table
+from stommel.files.provenance import ProvenanceError, separate
+from stommel.files.sentences import sentences
 from stommel.vehicle import Provenance
-from stommel.vehicle.messages import sentences
-from stommel.vehicle.provenance import ProvenanceError, separate
-from stommel.vehicle.schema.fields import Finite, Positive, Table
 
 TABLE = "materials.toml"
 Grade = Annotated[int, Field(strict=True, ge=0, le=4)]

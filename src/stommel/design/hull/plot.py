@@ -7,7 +7,7 @@ import numpy as np
 from stommel.design.hull import paper_formulas
 from stommel.design.hull.sizing import SizedHull, size
 from stommel.design.hull.study import HullStudy
-from stommel.design.plots.style import (
+from stommel.figures.style import (
     BLUE,
     FAINT,
     GREEN,

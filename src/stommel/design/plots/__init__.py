@@ -7,7 +7,6 @@ from stommel.design.plots.authority_plot import authority_figure
 from stommel.design.plots.envelope_plot import envelope_figure
 from stommel.design.plots.modes_plot import modes_figure
 from stommel.design.plots.root_locus_plot import Plane, planes_of, root_locus_figure
-from stommel.design.plots.saving import png_bytes, save_figure, svg_text
 from stommel.design.plots.trade_off import Decay, TradeOff, trade_off
 from stommel.design.plots.trim_plot import trim_table_figure
 from stommel.design.plots.turns_plot import turns_figure
@@ -21,10 +20,7 @@ __all__ = [
     "envelope_figure",
     "modes_figure",
     "planes_of",
-    "png_bytes",
     "root_locus_figure",
-    "save_figure",
-    "svg_text",
     "trade_off",
     "trim_table_figure",
     "turns_figure",

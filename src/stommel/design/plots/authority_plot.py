@@ -6,8 +6,8 @@ import numpy as np
 
 from stommel.analysis import Modes, RootLocus
 from stommel.design.plots.root_locus_plot import Plane, heading, planes_of
-from stommel.design.plots.style import CYCLE, DASHES, INK, MUTED, at_least_span, new_figure, number, styled
 from stommel.design.plots.trade_off import TradeOff, trade_off
+from stommel.figures.style import CYCLE, DASHES, INK, MUTED, at_least_span, new_figure, number, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.analysis import Mode
-from stommel.design.plots.style import INK, MUTED
+from stommel.figures.style import INK, MUTED
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

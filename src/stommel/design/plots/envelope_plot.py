@@ -6,8 +6,8 @@ from math import degrees
 from typing import TYPE_CHECKING
 
 from stommel.analysis import EnvelopeRow, SteadyFlight
-from stommel.design.plots.style import BLUE, GREEN, INK, MUTED, SKY, VERMILION, legend_below, new_figure, styled
 from stommel.design.study import DesignStudy
+from stommel.figures.style import BLUE, GREEN, INK, MUTED, SKY, VERMILION, legend_below, new_figure, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

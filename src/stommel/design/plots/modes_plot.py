@@ -6,8 +6,8 @@ import numpy as np
 
 from stommel.analysis import Mode
 from stommel.design.plots.complex_plane import prepare, write_names
-from stommel.design.plots.style import BLUE, MUTED, VERMILION, new_figure, number, styled
 from stommel.design.study import DesignStudy
+from stommel.figures.style import BLUE, MUTED, VERMILION, new_figure, number, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

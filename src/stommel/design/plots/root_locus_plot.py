@@ -6,7 +6,7 @@ import numpy as np
 
 from stommel.analysis import Modes, RootLocus
 from stommel.design.plots.complex_plane import Eigenvalues, prepare, write_names
-from stommel.design.plots.style import CYCLE, DASHES, INK, legend_below, new_figure, number, styled
+from stommel.figures.style import CYCLE, DASHES, INK, legend_below, new_figure, number, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

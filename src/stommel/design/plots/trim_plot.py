@@ -4,8 +4,8 @@ from math import degrees
 from typing import TYPE_CHECKING
 
 from stommel.analysis import Excess, Reason
-from stommel.design.plots.style import BLUE, INK, MUTED, VERMILION, legend_below, new_figure, styled
 from stommel.design.study import ComparedRow, ComparedTable
+from stommel.figures.style import BLUE, INK, MUTED, VERMILION, legend_below, new_figure, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

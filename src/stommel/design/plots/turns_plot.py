@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from stommel.design.plots.style import BLUE, GREEN, MUTED, PURPLE, VERMILION, new_figure, number, styled
 from stommel.design.study import DesignStudy
+from stommel.figures.style import BLUE, GREEN, MUTED, PURPLE, VERMILION, new_figure, number, styled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stommel.design.plots.style import (
+from stommel.figures.style import (
     BLUE,
     FAINT,
     GREEN,

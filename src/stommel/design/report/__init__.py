@@ -4,7 +4,7 @@ from pathlib import Path
 
 from stommel.design.report.page import report_html
 from stommel.design.study import DesignStudy
-from stommel.files import write_whole
+from stommel.files.whole import write_whole
 
 __all__ = ["report_html", "write_report"]
 

@@ -3,10 +3,10 @@
 import re
 from typing import TYPE_CHECKING
 
-from stommel.design.bench.performance_plot import performance_figure
+from stommel.bench.performance_plot import performance_figure
 from stommel.design.budget.figure import budget_figure
 from stommel.design.drives.figure import drives_figure
-from stommel.design.energy.figure import endurance_figure
+from stommel.design.endurance.figure import endurance_figure
 from stommel.design.engine.engine_plot import engine_figure
 from stommel.design.hull.plot import hull_figure
 from stommel.design.plots import (
@@ -15,12 +15,12 @@ from stommel.design.plots import (
     modes_figure,
     planes_of,
     root_locus_figure,
-    svg_text,
     trim_table_figure,
     turns_figure,
     vehicle_figure,
 )
 from stommel.design.study import DesignStudy
+from stommel.figures.saving import svg_text
 
 if TYPE_CHECKING:
     from markupsafe import Markup

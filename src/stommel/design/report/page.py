@@ -8,7 +8,7 @@ from typing import Any
 
 from stommel.analysis import LinearModel, Mode
 from stommel.analysis.limits import excesses
-from stommel.design.energy.study import MODEL_ASSUMPTIONS
+from stommel.design.endurance.study import MODEL_ASSUMPTIONS
 from stommel.design.plots import planes_of
 from stommel.design.report import wording
 from stommel.design.report.figures import figures

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import isinf
 
 from stommel.design.study import DesignStudy
-from stommel.vehicle.messages import unit_of
+from stommel.files.sentences import unit_of
 
 MINUS = "−"
 

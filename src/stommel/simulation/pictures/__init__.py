@@ -36,8 +36,8 @@ def save_pictures(dataset: "xr.Dataset", folder: Path, ocean: "Ocean | None" = N
     OutputError
         A file cannot be written; none is left half-written.
     """
-    from stommel.design.plots import save_figure  # noqa: PLC0415 - start-up counts
-    from stommel.files import write_whole  # noqa: PLC0415
+    from stommel.figures.saving import save_figure  # noqa: PLC0415 - start-up counts
+    from stommel.files.whole import write_whole  # noqa: PLC0415
 
     figures = {
         "trial": trial_figure(dataset),

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from stommel.design.plots.style import BLUE, GREEN, PURPLE, VERMILION, new_figure, styled
+from stommel.figures.style import BLUE, GREEN, PURPLE, VERMILION, new_figure, styled
 from stommel.simulation.pictures.extracts import date, first_dives, fitting_unit, seconds, unbroken, values
 from stommel.simulation.pictures.phases import legend_of, shade_phases
 from stommel.simulation.pictures.trial_figure import DIVES

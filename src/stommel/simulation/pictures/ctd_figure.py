@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from stommel.design.plots.style import MUTED, new_figure, styled
+from stommel.figures.style import MUTED, new_figure, styled
 from stommel.simulation.pictures.extracts import Array, date, fitting_unit, mean_in_cells, seconds, values
 
 if TYPE_CHECKING:

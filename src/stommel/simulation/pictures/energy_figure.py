@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from stommel.design.plots.style import BLUE, INK, MUTED, new_figure, styled
-from stommel.simulation.parameters import CONSUMERS
+from stommel.figures.style import BLUE, INK, MUTED, new_figure, styled
 from stommel.simulation.pictures.extracts import fitting_unit, seconds, thinned, values
+from stommel.simulation.plant.parameters import CONSUMERS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from stommel.design.plots.style import BLUE, GREEN, INK, MUTED, VERMILION, new_figure, styled
+from stommel.figures.style import BLUE, GREEN, INK, MUTED, VERMILION, new_figure, styled
 from stommel.simulation.pictures.extracts import values
 
 if TYPE_CHECKING:

@@ -11,9 +11,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from stommel.control.dive_cycle import PHASES
-from stommel.simulation.parameters import CONSUMERS
 from stommel.simulation.pictures.extracts import first_dives, positions, seconds, unbroken, values
 from stommel.simulation.pictures.phases import SHADES
+from stommel.simulation.plant.parameters import CONSUMERS
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from stommel.control.dive_cycle import PHASES
-from stommel.design.plots.style import INK, MUTED, VERMILION, new_figure, styled
+from stommel.figures.style import INK, MUTED, VERMILION, new_figure, styled
 from stommel.simulation.pictures.extracts import (
     date,
     dives_begun,

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import xarray as xr
 
-from stommel.design.plots.style import BLUE, GREEN, MUTED, PURPLE, VERMILION, new_figure, styled
+from stommel.figures.style import BLUE, GREEN, MUTED, PURPLE, VERMILION, new_figure, styled
 from stommel.simulation.pictures.extracts import (
     Array,
     date,

@@ -5,12 +5,12 @@ millimetres, millilitres or degrees, a property gives SI (docs/decisions/0002). 
 refused.
 """
 
+from stommel.files.fields import Matrix3, Point
 from stommel.vehicle.schema.actuators import Actuators, BuoyancyEngine, MovingMassDrive, RollDrive, RudderDrive
 from stommel.vehicle.schema.budget import Part
 from stommel.vehicle.schema.drives import Drives
 from stommel.vehicle.schema.energy import Battery, Consumer, EnergyPlan
 from stommel.vehicle.schema.engine import Engine
-from stommel.vehicle.schema.fields import Matrix3, Point
 from stommel.vehicle.schema.hull import Bay, Hull, Rings
 from stommel.vehicle.schema.hydrodynamics import Hydrodynamics, Rudder, Wing
 from stommel.vehicle.schema.masses import AddedInertia, Ballast, MovingMass, RigidBody

@@ -5,7 +5,7 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from stommel.vehicle.schema.fields import Interval, Point, Positive, Table, ordered
+from stommel.files.fields import Interval, Point, Positive, Table, ordered
 
 
 class MovingMassDrive(Table):

@@ -1,6 +1,6 @@
 """Where the antenna of position and radio sits."""
 
-from stommel.vehicle.schema.fields import Point, Table
+from stommel.files.fields import Point, Table
 
 
 class Antenna(Table):

@@ -6,7 +6,7 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from stommel.vehicle.schema.fields import NotNegative, Point, Positive, Table
+from stommel.files.fields import NotNegative, Point, Positive, Table
 from stommel.vehicle.schema.hull import Bay, Hull
 
 TOLERANCE_M = 1e-6

@@ -4,7 +4,7 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from stommel.vehicle.schema.fields import Interval, NotNegative, Positive, Table, ordered
+from stommel.files.fields import Interval, NotNegative, Positive, Table, ordered
 
 Share = Annotated[float, Field(strict=True, ge=0, le=1)]
 Efficiency = Annotated[float, Field(strict=True, gt=0, le=1)]

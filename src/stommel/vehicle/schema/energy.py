@@ -5,7 +5,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.vehicle.schema.fields import Finite, NotNegative, Positive, Table
+from stommel.files.fields import Finite, NotNegative, Positive, Table
 
 Share = Annotated[float, Field(strict=True, ge=0, le=1)]
 """A part of a whole."""

@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.vehicle.schema.fields import Finite, Interval, NotNegative, Positive, Table, ordered
+from stommel.files.fields import Finite, Interval, NotNegative, Positive, Table, ordered
 
 Share = Annotated[float, Field(strict=True, gt=0, le=1)]
 Domain = Literal["shaft", "rod", "oil"]

@@ -5,7 +5,7 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from stommel.vehicle.schema.fields import Finite, NotNegative, Positive, Table
+from stommel.files.fields import Finite, NotNegative, Positive, Table
 
 Fraction = Annotated[float, Field(strict=True, gt=0, le=1)]
 AtLeastOne = Annotated[float, Field(strict=True, ge=1, allow_inf_nan=False)]

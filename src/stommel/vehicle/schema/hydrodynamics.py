@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.vehicle.schema.fields import Finite, NotNegative, NotPositive, Positive, Table, ordered
+from stommel.files.fields import Finite, NotNegative, NotPositive, Positive, Table, ordered
 
 
 class Hydrodynamics(Table):

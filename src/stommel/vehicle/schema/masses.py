@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-from stommel.vehicle.schema.fields import ZERO_MATRIX, Finite, Matrix3, NotNegative, Point, Positive, Table, Tensor
+from stommel.files.fields import ZERO_MATRIX, Finite, Matrix3, NotNegative, Point, Positive, Table, Tensor
 
 
 class RigidBody(Table):

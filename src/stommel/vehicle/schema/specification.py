@@ -4,7 +4,7 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from stommel.vehicle.schema.fields import Positive, Table, ordered
+from stommel.files.fields import Positive, Table, ordered
 
 
 class Specification(Table):

@@ -5,13 +5,13 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
+from stommel.files.fields import Table
 from stommel.vehicle.schema.actuators import Actuators
 from stommel.vehicle.schema.antenna import Antenna
 from stommel.vehicle.schema.budget import Part
 from stommel.vehicle.schema.drives import Drives
 from stommel.vehicle.schema.energy import Battery, Consumer, EnergyPlan
 from stommel.vehicle.schema.engine import Engine
-from stommel.vehicle.schema.fields import Table
 from stommel.vehicle.schema.hull import Bay, Hull
 from stommel.vehicle.schema.hydrodynamics import Hydrodynamics, Rudder, Wing
 from stommel.vehicle.schema.masses import AddedInertia, Ballast, MovingMass, RigidBody

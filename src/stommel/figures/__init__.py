@@ -1,0 +1,1 @@
+"""Style and saving of every picture."""

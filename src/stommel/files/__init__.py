@@ -1,0 +1,1 @@
+"""Files from outside and files written: fields with ranges, units, provenance, sentences of errors, whole writing."""

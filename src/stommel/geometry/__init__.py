@@ -1,0 +1,1 @@
+"""Vectors, attitude and the ellipsoid, for compiled code and plain Python alike."""

@@ -1,0 +1,117 @@
+"""Engines by name: that of a vehicle, one of the examples, or a file with an [engine] of its own."""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, ValidationError
+
+from stommel.errors import FileError, Problem, StommelError
+from stommel.files.fields import Table
+from stommel.files.provenance import ProvenanceError, separate
+from stommel.files.sentences import sentences
+from stommel.vehicle import Vehicle
+from stommel.vehicle.schema import Engine
+
+_EXAMPLES = "examples"
+
+
+class EngineFile(Table):
+    """A file that describes an engine and no vehicle."""
+
+    format: Literal[1] = 1
+    name: Annotated[str, Field(min_length=1)]
+    summary: str = ""
+    notes: tuple[str, ...] = ()
+    engine: Engine
+
+
+class NoEngineError(StommelError):
+    """The vehicle has no [engine], or no engine has this name."""
+
+
+@dataclass(frozen=True)
+class NamedEngine:
+    """An engine and what it is called."""
+
+    name: str
+    engine: Engine
+
+
+def example_names() -> tuple[str, ...]:
+    """Names of the engines that ship with stommel."""
+    folder = resources.files(__package__) / _EXAMPLES
+    return tuple(sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml")))
+
+
+def engine_of(vehicle: Vehicle) -> NamedEngine:
+    """Return the engine of a vehicle.
+
+    Raises
+    ------
+    NoEngineError
+        Its file has no table [engine].
+    """
+    if vehicle.description.engine is None:
+        raise NoEngineError(
+            f"{vehicle.name}: its file has no table [engine], the hydraulic circuit of the buoyancy engine; "
+            f"try another engine on it with --engine: {', '.join(example_names())}, or a file"
+        )
+    return NamedEngine(vehicle.name, vehicle.description.engine)
+
+
+def load_engine(name_or_path: str) -> NamedEngine:
+    """Load an example by name, or a file with a table [engine] by path; it may be a vehicle file.
+
+    Raises
+    ------
+    NoEngineError
+        Neither an example nor a file.
+    FileError
+        The file is not a possible engine; every problem is named.
+    """
+    if name_or_path in example_names():
+        text = (resources.files(__package__) / _EXAMPLES / f"{name_or_path}.toml").read_text(encoding="utf-8")
+        return engine_from_text(text, f"{name_or_path}.toml")
+    path = Path(name_or_path)
+    if not path.is_file():
+        raise NoEngineError(
+            f"engine {name_or_path!r} is neither an example nor a file; examples: {', '.join(example_names())}"
+        )
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileError([Problem(name_or_path, "", f"cannot be read: {error}")]) from error
+    return engine_from_text(text, name_or_path)
+
+
+def engine_from_text(text: str, origin: str) -> NamedEngine:
+    """Parse and validate a file with a table [engine]; of a vehicle file only that table is read.
+
+    Raises
+    ------
+    FileError
+        As `load_engine`.
+    """
+    try:
+        document, _ = separate(tomllib.loads(text))
+    except tomllib.TOMLDecodeError as error:
+        raise FileError([Problem(origin, "", f"is not valid TOML: {error}")]) from error
+    except ProvenanceError as error:
+        raise FileError([Problem(origin, error.key, str(error))]) from error
+    try:
+        found = EngineFile.model_validate(_without_vehicle(document))
+    except ValidationError as error:
+        wrong = [Problem(origin, key, sentence) for key, sentence in sentences(error, EngineFile)]
+        raise FileError(wrong) from None
+    return NamedEngine(found.name, found.engine)
+
+
+def _without_vehicle(document: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Leave out the tables of a vehicle file, known by its rigid body."""
+    if "rigid_body" not in document:
+        return document
+    return {key: value for key, value in document.items() if key in EngineFile.model_fields}

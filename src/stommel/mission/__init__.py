@@ -1,0 +1,1 @@
+"""The plan that a vehicle is told: waypoints, dives, surfacing, aborts, control, sampling."""

@@ -1,0 +1,151 @@
+"""The tables of a mission file on what the vehicle is told: where to go, how to dive, how to steer."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from stommel.files.fields import NotNegative, Positive, Table
+
+Latitude = Annotated[float, Field(strict=True, ge=-90, le=90)]
+Longitude = Annotated[float, Field(strict=True, ge=-180, le=360)]
+Share = Annotated[float, Field(strict=True, ge=0, le=1)]
+PitchAngle = Annotated[float, Field(strict=True, ge=5, le=60)]
+
+
+class Position(Table):
+    """A place on the surface."""
+
+    latitude_deg: Latitude
+    longitude_deg: Longitude
+
+
+class Dives(Table):
+    """How the vehicle dives."""
+
+    depth_m: Positive
+    """Depth at which it turns."""
+    pitch_deg: PitchAngle
+    """Magnitude of the pitch, down and up."""
+    speed_m_s: Positive | None = None
+    """Speed along the path; the ballast volume follows from the trim."""
+    ballast_ml: Positive | None = None
+    """Magnitude of the ballast volume instead of the speed."""
+    per_surfacing: Annotated[int, Field(strict=True, ge=1)] = 1
+    """Dives from one stay at the surface to the next."""
+    turn_depth_m: NotNegative = 10.0
+    """Depth of the upper turn of dives that do not surface."""
+    least_altitude_m: NotNegative = 10.0
+    """Height above the bottom at which it turns, if the altimeter hears the bottom."""
+    drift_hours: NotNegative = 0.0
+    """Time for which it hangs neutrally buoyant at `depth_m` before it climbs."""
+
+    @model_validator(mode="after")
+    def _one_drive(self) -> Self:
+        if (self.speed_m_s is None) == (self.ballast_ml is None):
+            raise ValueError("dives: give either speed_m_s or ballast_ml")
+        return self
+
+
+class Surfacing(Table):
+    """What happens at the surface."""
+
+    session_s: Annotated[float, Field(strict=True, ge=60)] = 300.0
+    """Time for position and radio."""
+    longest_s: Positive = 1800.0
+    """How long it waits for a position while waves wash over the antenna; then it dives without."""
+    every_hours: Positive | None = None
+    """Surface after the dive that is under way when so much time has passed, whatever `dives.per_surfacing` says."""
+    pitch_deg: Annotated[float, Field(strict=True, ge=-60, le=60)] = -45.0
+    """Pitch that raises the antenna; used where the vehicle file says where the antenna is."""
+    ballast_ml: Positive | None = None
+    """Ballast volume that raises the antenna; the engine's greatest if left out."""
+    depth_m: Positive = 1.0
+    """The vehicle counts as surfaced when it is no deeper than this."""
+
+
+class Ballasting(Table):
+    """How the vehicle was trimmed before the mission."""
+
+    neutral_depth_m: NotNegative | None = None
+    """Depth at the start at which it is neutral with no ballast volume; if left out, it is neutral
+    in the middle of the densities it meets."""
+
+
+class Guidance(Table):
+    """How waypoints are sought."""
+
+    acceptance_radius_m: Positive = 500.0
+    """A waypoint is reached within this distance."""
+    lookahead_m: Positive = 3000.0
+    """How far ahead on the line between waypoints the vehicle aims."""
+    repeat: bool = False
+    """Begin again with the first waypoint after the last."""
+
+
+class Aborts(Table):
+    """When a dive is broken off."""
+
+    depth_m: Positive | None = None
+    """Too deep; 10 % beyond the dive depth if left out."""
+    dive_hours: Positive = 12.0
+    """Too long without surfacing."""
+    battery_share: Share = 0.02
+    """The mission ends when no more than this part of the usable energy is left, by the vehicle's own account."""
+    leak: bool = True
+    """The mission ends when the leak detectors find water."""
+    internal_pressure_kpa: Positive | None = None
+    """The mission ends above this pressure in the hull: the vacuum is lost."""
+
+
+class PitchControl(Table):
+    """Feedback on pitch."""
+
+    gain_mm_per_deg: NotNegative | None = None
+    """Correction of the moving mass for each degree of error, once a period; if left out, a third of what the flight
+    table has between two flights a degree apart."""
+    dead_band_deg: NotNegative = 0.5
+    """Error that is left alone."""
+    period_s: Positive = 120.0
+    """Time between corrections."""
+    tolerance_mm: Positive = 0.5
+    """Distance from its command below which the moving mass stays where it is."""
+
+
+class HeadingControl(Table):
+    """Feedback on heading by rudder or rolling mass; its gain follows from how the flight turns."""
+
+    response_s: Positive = 30.0
+    """Time in which a heading error is turned away."""
+    dead_band_deg: NotNegative = 1.0
+    """Change of command that is left alone."""
+    limit_deg: NotNegative = 10.0
+    """Greatest command to either side; zero keeps it amidships."""
+
+
+class DriftControl(Table):
+    """Feedback on depth while the vehicle hangs in the water."""
+
+    gain_ml_s_m: NotNegative = 60.0
+    """Ballast volume for each metre per second by which it sinks too fast, once a period."""
+    return_minutes: Positive = 10.0
+    """Time in which it should return to its depth."""
+    fastest_m_s: Positive = 0.05
+    """Vertical speed of the return."""
+    dead_band_m: NotNegative = 3.0
+    """Distance from the depth that is left alone."""
+    period_s: Positive = 60.0
+    """Time between corrections."""
+
+
+class Sampling(Table):
+    """When the CTD measures."""
+
+    every_s: Positive = 10.0
+    """Time between two samples."""
+    phases: tuple[Literal["descent", "drift", "inflection", "ascent"], ...] = (
+        "descent",
+        "drift",
+        "inflection",
+        "ascent",
+    )
+    """Phases of the dive in which it is on."""

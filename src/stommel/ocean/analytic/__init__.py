@@ -1,0 +1,1 @@
+"""Oceans in closed form, and a profile that stands everywhere."""

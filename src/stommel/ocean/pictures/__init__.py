@@ -1,0 +1,1 @@
+"""Maps, sections and profiles of an ocean."""

@@ -1,0 +1,77 @@
+"""Opening the files of an ocean: one, several, or a pattern; what is missing or damaged is said by name."""
+
+import glob
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import NoReturn
+
+import xarray as xr
+
+from stommel.errors import FileError, Problem
+from stommel.ocean.answers import Source
+from stommel.ocean.reading.classic import expected_length
+from stommel.ocean.reading.variables import File
+
+
+def paths_of(source: Source, folder: Path | None) -> list[Path]:
+    """Return the files of a source; relative names are sought in `folder` first.
+
+    Raises
+    ------
+    FileError
+        A pattern matches nothing, a file is named twice, or none is named.
+    """
+    given = [source] if isinstance(source, str | Path) else list(source)
+    found: list[Path] = []
+    for entry in map(str, given):
+        found += _matching(entry, folder)
+    if not found:
+        raise FileError([Problem("ocean", "", "no file is named")])
+    twice = sorted({str(path) for path in found if found.count(path) > 1})
+    if twice:
+        raise FileError([Problem(twice[0], "", "is named twice")])
+    return found
+
+
+def _matching(entry: str, folder: Path | None) -> list[Path]:
+    beside = str(folder / entry) if folder is not None else entry
+    for name in (beside, entry):
+        # a file may have a bracket in its name
+        if Path(name).exists():
+            return [Path(name)]
+        matched = sorted(glob.glob(name))  # noqa: PTH207 - a pattern may be an absolute path
+        if matched:
+            return [Path(path) for path in matched]
+    if glob.has_magic(entry):
+        raise FileError([Problem(entry, "", "no file matches this pattern")])
+    return [Path(entry)]
+
+
+@contextmanager
+def opened(paths: Sequence[Path], names: Mapping[str, str]) -> Iterator[list[File]]:
+    """Open files with the names that the user gave their variables, and close them at the end."""
+    with ExitStack() as stack:
+        yield [File(str(path), stack.enter_context(_open(path)), names) for path in paths]
+
+
+def _open(path: Path) -> xr.Dataset:
+    if path.is_dir():
+        _refuse(path, f"is a folder; name its files, as {path / '*.nc'}")
+    if not path.exists():
+        _refuse(path, "cannot be read as NetCDF: no such file")
+    if not os.access(path, os.R_OK):
+        _refuse(path, "cannot be read as NetCDF: permission denied")
+    length, expected = path.stat().st_size, expected_length(path)
+    if expected is not None and length < expected:
+        _refuse(path, f"is damaged or was cut short: it has {length} bytes and should have {expected}")
+    try:
+        return xr.open_dataset(path, engine="netcdf4", decode_cf=False, cache=False)
+    except (OSError, ValueError, RuntimeError, AttributeError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or (str(error).splitlines() or [type(error).__name__])[0]
+        _refuse(path, f"cannot be read as NetCDF: {reason}")
+
+
+def _refuse(path: Path, message: str) -> NoReturn:
+    raise FileError([Problem(str(path), "", message)])

@@ -1,0 +1,1 @@
+"""From a mission to orders: ballast, laws, waypoints, flight table."""

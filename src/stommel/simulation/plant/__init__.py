@@ -1,0 +1,1 @@
+"""The vehicle as metal: actuators, power, sensors, hull air, waves, motion."""

@@ -1,0 +1,111 @@
+"""What the vehicle measures of its attitude, depth, position and water, and when it hears of it (compiled)."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from stommel.compilation import inlined
+from stommel.geometry.vectors import Quaternion, Vector, add, cross, dot, down_in_body, matrix_times, scale, to_body
+from stommel.simulation.plant.sensors import Sensors
+from stommel.simulation.scenario.mission_file import LONGEST_LATENCY
+
+
+class Heading(NamedTuple):
+    """Pitch and heading, as the software uses them [rad]."""
+
+    theta: float
+    psi: float
+
+
+@inlined
+def disturbing_field(sensors: Sensors, plant_state: np.record) -> Vector:
+    """Field of the motors and the valve that run now, behind their shielding, in the body frame."""
+    open_share = 1.0 - sensors.shielding
+    field = (0.0, 0.0, 0.0)
+    if plant_state.pumping:
+        field = add(field, scale(open_share, sensors.pump_field))
+    if plant_state.valve_open:
+        field = add(field, scale(open_share, sensors.valve_field))
+    if plant_state.mass_moving:
+        field = add(field, scale(open_share, sensors.mass_field))
+    if plant_state.steering_moving:
+        field = add(field, scale(open_share, sensors.steering_field))
+    return field
+
+
+@inlined
+def compass(sensors: Sensors, plant_state: np.record, Q: Quaternion, noise: np.random.Generator) -> Heading:
+    """Pitch by the accelerometers and the tilt-compensated magnetic heading, with iron, motors and noise.
+
+    East is down cross field, north is east cross down; both as the sensors feel them, in the body frame.
+    """
+    zeta, sigma = down_in_body(Q), sensors.attitude_noise
+    felt = (
+        zeta[0] + sigma * noise.standard_normal(),
+        zeta[1] + sigma * noise.standard_normal(),
+        zeta[2] + sigma * noise.standard_normal(),
+    )
+    down = scale(1.0 / math.sqrt(dot(felt, felt)), felt)
+    b = matrix_times(sensors.soft_iron, to_body(Q, sensors.field))
+    b = add(add(b, sensors.hard_iron), disturbing_field(sensors, plant_state))
+    east = cross(down, b)
+    north = cross(east, down)
+    psi = math.atan2(east[0], north[0]) + sensors.heading_noise * noise.standard_normal()
+    return Heading(math.atan2(-down[0], math.sqrt(down[1] * down[1] + down[2] * down[2])), psi)
+
+
+@inlined
+def depth_sensor(sensors: Sensors, depth: float, noise: np.random.Generator) -> float:
+    """Depth from the pressure sensor [m]."""
+    return depth + sensors.pressure_bias + sensors.pressure_noise * noise.standard_normal()
+
+
+@inlined
+def late(sensors: Sensors, world: np.record, tick: int, now: Heading, depth: float) -> tuple[Heading, float]:
+    """Pitch, heading and depth that reach the software at this control step: measured some steps ago."""
+    row = world.measured[tick % LONGEST_LATENCY]
+    row[0], row[1], row[2] = now.theta, now.psi, depth
+    then = world.measured[(tick - sensors.attitude_lag) % LONGEST_LATENCY]
+    pressed = world.measured[(tick - sensors.pressure_lag) % LONGEST_LATENCY]
+    return Heading(then[0], then[1]), pressed[2]
+
+
+@inlined
+def altimeter(sensors: Sensors, above: float, noise: np.random.Generator) -> float:
+    """Height above the bottom [m]; infinite where it is out of range."""
+    if above >= sensors.altimeter_range:
+        return math.inf
+    return above + sensors.altimeter_noise * noise.standard_normal()
+
+
+@inlined
+def feel_temperature(sensors: Sensors, world: np.record, T: float) -> None:
+    """Let thermistor and conductivity cell of the CTD follow the water's temperature through one control step.
+
+    The thermistor is a first-order lag; the cell's walls lag by the thermal mass of Lueck and Picklo (1990). Both are
+    exact for a temperature that changes evenly through the step.
+    """
+    change = T - world.water_before
+    lag = sensors.thermistor_decay * (world.water_before - world.thermistor) + sensors.thermistor_gain * change
+    world.thermistor = T - lag
+    world.cell_error = sensors.cell_decay * world.cell_error + sensors.cell_gain * change
+    world.water_before = T
+
+
+@inlined
+def fix(
+    sensors: Sensors, latitude: float, longitude: float, metres: tuple[float, float], noise: np.random.Generator
+) -> tuple[float, float]:
+    """A position from GPS, with the metres per radian of latitude and longitude there."""
+    return (
+        latitude + sensors.position_noise * noise.standard_normal() / metres[0],
+        longitude + sensors.position_noise * noise.standard_normal() / metres[1],
+    )
+
+
+@inlined
+def measured_internal_pressure(sensors: Sensors, world: np.record) -> float:
+    """Pressure in the hull by its sensor, without noise [Pa]."""
+    pressure: float = world.internal_pressure + sensors.internal_pressure_bias
+    return pressure

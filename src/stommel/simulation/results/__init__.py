@@ -1,0 +1,1 @@
+"""What a mission leaves: rows of the log, Dataset, summary, CTD samples."""

@@ -1,0 +1,62 @@
+"""What cannot be flown, found before the mission begins."""
+
+from collections.abc import Iterator
+
+from stommel.errors import FileError, Problem, StommelError
+from stommel.planning.mission import Mission
+
+
+def refuse_impossible(mission: Mission) -> None:
+    """Refuse what cannot be flown: too deep for the hull or the water, waypoints on land, outside the ocean.
+
+    Raises
+    ------
+    FileError
+        Everything that is wrong, each with its key and value.
+    """
+    wrong = [*_too_deep(mission), *_places(mission)]
+    if not wrong:  # a place in the water can be asked for more
+        wrong = [*_bottom(mission), *_end(mission)]
+    if wrong:
+        raise FileError(wrong)
+
+
+def _too_deep(mission: Mission) -> Iterator[Problem]:
+    hull, depth = mission.vehicle.description.hull, mission.plan.dives.depth_m
+    rating = hull.depth_rating_m if hull is not None else None
+    if rating is not None and depth > rating:
+        text = f"dives.depth_m = {depth:g}: deeper than the hull's rating, {rating:g} m"
+        yield Problem(mission.origin, "dives.depth_m", text)
+
+
+def _places(mission: Mission) -> Iterator[Problem]:
+    """Start and waypoints on land or outside the ocean; what is wrong with all of them, as the time, is said once."""
+    plan = mission.plan
+    places = {"start": plan.start} | {f"waypoints.{i}": place for i, place in enumerate(plan.waypoints)}
+    said = set()
+    for key, place in places.items():
+        try:
+            mission.ocean.at(plan.start_seconds, place.latitude_deg, place.longitude_deg, 0.0)
+        except StommelError as error:
+            text = f"{key} = ({place.latitude_deg:g}, {place.longitude_deg:g}): {error}"
+            if str(error) not in said:
+                yield Problem(mission.origin, key, text)
+            said.add(str(error))
+
+
+def _bottom(mission: Mission) -> Iterator[Problem]:
+    plan = mission.plan
+    bottom = mission.ocean.bottom_depth(plan.start.latitude_deg, plan.start.longitude_deg)
+    if plan.dives.depth_m > bottom:
+        text = f"dives.depth_m = {plan.dives.depth_m:g}: below the bottom at the start, {bottom:.4g} m"
+        yield Problem(mission.origin, "dives.depth_m", text)
+
+
+def _end(mission: Mission) -> Iterator[Problem]:
+    """A mission that may last longer than the ocean's data."""
+    plan = mission.plan
+    try:
+        mission.ocean.at(plan.end_seconds, plan.start.latitude_deg, plan.start.longitude_deg, 0.0)
+    except StommelError as error:
+        text = f"duration_days = {plan.duration_days:g}: {error}"
+        yield Problem(mission.origin, "duration_days", text)

@@ -1,0 +1,202 @@
+"""Who flies the runs: processes of this machine, or a Dask cluster. Both give the same records."""
+
+import atexit
+import logging
+import multiprocessing
+import os
+import pickle
+import re
+import signal
+import threading
+import zlib
+from collections.abc import Generator, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from itertools import islice
+from multiprocessing import connection
+from queue import Empty, SimpleQueue
+from typing import Any
+
+from stommel.errors import StommelError
+from stommel.studies.errors import StudyError
+from stommel.studies.flight import Record, fly_run
+from stommel.studies.kit import RunKit
+from stommel.studies.study_file import Value
+
+Task = tuple[int, tuple[Value, ...]]
+"""Number of a run, and its values."""
+
+_AHEAD = 4
+"""Tasks handed out beforehand for each worker: enough that none waits, few enough to stop soon."""
+
+_LOOK_S = 0.5
+"""How often to look whether the study was interrupted [s]."""
+
+_ONE_THREAD = dict.fromkeys(("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+"""Runs are the parallelism; threads of the libraries would only get into each other's way."""
+
+_ADDRESS = re.compile(r"(tcp|tls|wss?)://(\[[0-9a-fA-F:.]+\]|[^\s/:\[\]]+):\d{1,5}")
+
+_kit: RunKit | None = None
+
+
+def cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def fly_here(kit: RunKit, tasks: Sequence[Task], workers: int, stop: threading.Event) -> Generator[Record, None, None]:
+    """Fly runs on processes of this machine; records come as they are finished.
+
+    Once `stop` is set, runs under way are finished and come too, and no others.
+
+    Raises
+    ------
+    StudyError
+        A process died.
+    """
+    context = multiprocessing.get_context("spawn")
+    with _environment(_ONE_THREAD):
+        pool = ProcessPoolExecutor(min(workers, len(tasks)), context, _prepare, (_packed(kit),))
+        waiting: set[Future[Record]] = set()
+        todo = iter(tasks)
+        try:
+            while True:
+                if stop.is_set():
+                    waiting = {future for future in waiting if not future.cancel()}
+                else:
+                    waiting |= {pool.submit(_fly, *task) for task in islice(todo, _AHEAD * workers - len(waiting))}
+                if not waiting:
+                    return
+                done, waiting = wait(waiting, timeout=_LOOK_S, return_when=FIRST_COMPLETED)
+                for future in done:
+                    yield future.result()
+        except BrokenProcessPool:
+            raise StudyError(
+                "a worker process died (killed, or out of memory); finished runs are kept, the same command goes on"
+            ) from None
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+@contextmanager
+def _environment(values: dict[str, str]) -> Iterator[None]:
+    """Environment of the processes that are started meanwhile."""
+    before = {name: os.environ.get(name) for name in values}
+    os.environ.update(values)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value
+
+
+def _packed(kit: RunKit) -> bytes:
+    """Pack the kit so that a pipe takes it whole; else each worker would begin only once the one before has read it."""
+    return zlib.compress(pickle.dumps(kit))
+
+
+def _prepare(packed: bytes) -> None:
+    """Begin a worker: it leaves Ctrl-C to its parent, and ends with it."""
+    global _kit  # noqa: PLW0603 - one kit for the life of the process
+    _kit = pickle.loads(zlib.decompress(packed))
+    atexit.register(os._exit, 0)  # there is nothing to save, and taking the interpreter down takes half a second
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """Without this, workers of a killed study would wait for work for ever."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        connection.wait([parent.sentinel])
+        os._exit(1)
+
+
+def _fly(run: int, values: tuple[Value, ...]) -> Record:
+    assert _kit is not None
+    return fly_run(_kit, run, values)
+
+
+def fly_on_cluster(
+    kit: RunKit, tasks: Sequence[Task], address: str, stop: threading.Event, *, patience_s: float = 20.0
+) -> Generator[Record, None, None]:
+    """Fly runs on a Dask cluster; the runs of a worker that goes away are flown by the others.
+
+    Parameters
+    ----------
+    address
+        Of the scheduler, such as tcp://127.0.0.1:8786.
+    stop
+        Once it is set, no more records come.
+    patience_s
+        How long to wait for the scheduler, and for its first worker [s].
+
+    Raises
+    ------
+    StudyError
+        Dask is not installed, the scheduler cannot be reached or has no workers, or it goes away.
+    """
+    if not _ADDRESS.fullmatch(address):
+        raise StudyError(f"--scheduler {address}: must look like tcp://host:8786")
+    try:
+        import distributed  # noqa: PLC0415 - an extra, and slow to load
+    except ImportError:
+        raise StudyError("--scheduler needs Dask: pip install 'stommel[cluster]'") from None
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    try:
+        client: Any = distributed.Client(address, timeout=patience_s, set_as_default=False)  # type: ignore[no-untyped-call]
+    except (OSError, ValueError, TypeError, RuntimeError) as error:
+        raise StudyError(f"--scheduler {address}: cannot be reached: {_line(error)}") from None
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=patience_s)
+        except TimeoutError:
+            raise StudyError(f"--scheduler {address}: has no workers; start some: dask worker {address}") from None
+        yield from _on_cluster(client, kit, tasks, address, stop)
+
+
+def _on_cluster(
+    client: Any, kit: RunKit, tasks: Sequence[Task], address: str, stop: threading.Event
+) -> Generator[Record, None, None]:
+    # a task rather than scattered data: the scheduler makes it again if its worker goes away
+    shared = client.submit(_same, kit, pure=False)
+    futures = [client.submit(fly_run, shared, run, values, pure=False) for run, values in tasks]
+    done: SimpleQueue[Any] = SimpleQueue()
+    for future in futures:
+        future.add_done_callback(done.put)
+    try:
+        left = len(futures)
+        while left and not stop.is_set():
+            try:
+                future = done.get(timeout=_LOOK_S)
+            except Empty:
+                if client.status != "running":
+                    raise StudyError(_failed(address, f"the client is {client.status}")) from None
+                continue
+            left -= 1
+            yield future.result()
+            future.release()
+    except StommelError:
+        raise
+    except Exception as error:  # noqa: BLE001 - whatever a cluster can do wrong, it is not a defect of stommel
+        raise StudyError(_failed(address, _line(error))) from None
+    finally:
+        if client.status == "running":
+            client.cancel(futures)
+
+
+def _failed(address: str, reason: str) -> str:
+    return f"--scheduler {address}: the cluster failed: {reason}; finished runs are kept, the same command goes on"
+
+
+def _same(kit: RunKit) -> RunKit:
+    return kit
+
+
+def _line(error: Exception) -> str:
+    return " ".join(f"{type(error).__name__}: {error}".split()).rstrip(": ")

@@ -32,7 +32,7 @@ _WHERE = {
     "turn": "stommel.analysis",
     "design_study": "stommel.design.study",
     "write_report": "stommel.design.report",
-    "Mission": "stommel.planning.mission",
+    "Mission": "stommel.simulation.scenario.mission",
     "load_mission": "stommel.simulation.scenario.loading",
     "fly_mission": "stommel.simulation.flight",
     "dataset_of": "stommel.simulation.results.dataset",
@@ -90,10 +90,10 @@ if TYPE_CHECKING:
     from stommel.design.study import design_study
     from stommel.errors import StommelError
     from stommel.ocean import Ocean
-    from stommel.planning.mission import Mission
     from stommel.simulation.flight import fly_mission
     from stommel.simulation.results.dataset import dataset_of
     from stommel.simulation.scenario.loading import load_mission
+    from stommel.simulation.scenario.mission import Mission
     from stommel.vehicle import FULL, PAPER, Physics, Vehicle, builtin_names, load_vehicle
 
 

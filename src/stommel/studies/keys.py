@@ -13,7 +13,7 @@ from stommel.files.sentences import sentences
 from stommel.ocean.analytic.catalogue import ANALYTIC
 from stommel.ocean.analytic.profile import ProfileOcean
 from stommel.ocean.answers import is_profile
-from stommel.simulation.scenario.mission_file import MissionFile
+from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.simulation.scenario.world_tables import OceanChoice
 from stommel.studies.errors import StudyError
 from stommel.studies.kit import RunKit, Target, put
@@ -140,6 +140,6 @@ def _try(kit: RunKit, target: Target, value: Value) -> None:
     document = copy.deepcopy(dict(kit.document))
     put(document, target, value)
     try:
-        MissionFile.model_validate(document)
+        ScenarioFile.model_validate(document)
     except ValidationError as error:
-        raise StudyError(sentences(error, MissionFile)[0][1]) from None
+        raise StudyError(sentences(error, ScenarioFile)[0][1]) from None

@@ -15,8 +15,8 @@ from stommel.files.sentences import sentences
 from stommel.files.toml_reader import read_toml
 from stommel.ocean.analytic.catalogue import ANALYTIC
 from stommel.ocean.reading.sources import paths_of
-from stommel.planning.mission import Mission
 from stommel.simulation.scenario.loading import load_mission
+from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.shipped import UnknownMissionError, mission_path
 from stommel.studies.errors import StudyError
 from stommel.studies.keys import key_problems, target_of
@@ -86,8 +86,8 @@ def study_of(file: StudyFile, origin: str, mission: Mission) -> Study:
     folder = Path(mission.origin).parent.resolve()
     targets = tuple(target_of(parameter.key) for parameter in file.parameters)
     kit = RunKit(
-        document=_plain(mission.plan.model_dump(exclude={"format"})),
-        vehicle=None if ("vehicle",) in targets else _vehicle(mission.plan.vehicle, folder),
+        document=_plain(mission.scenario.model_dump(exclude={"format"})),
+        vehicle=None if ("vehicle",) in targets else _vehicle(mission.scenario.vehicle, folder),
         folder=folder,
         origin=mission.origin,
         targets=targets,

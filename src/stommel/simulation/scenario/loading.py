@@ -13,9 +13,9 @@ from stommel.files.toml_reader import read_toml
 from stommel.ocean.answers import is_profile
 from stommel.ocean.ocean import Ocean
 from stommel.planning.ballasting import ballasted
-from stommel.planning.mission import Mission
 from stommel.simulation.scenario.checks import refuse_impossible
-from stommel.simulation.scenario.mission_file import MissionFile
+from stommel.simulation.scenario.mission import Mission
+from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle import Vehicle, load_vehicle
 
 
@@ -44,24 +44,24 @@ def mission_from(
     `vehicle` and `ocean`, already loaded, stand in for the file's own.
     """
     try:
-        plan = MissionFile.model_validate(document)
+        scenario = ScenarioFile.model_validate(document)
     except ValidationError as error:
-        raise FileError([Problem(origin, key, text) for key, text in sentences(error, MissionFile)]) from None
+        raise FileError([Problem(origin, key, text) for key, text in sentences(error, ScenarioFile)]) from None
     if vehicle is None:
-        beside = folder / plan.vehicle
-        vehicle = load_vehicle(beside if beside.is_file() else plan.vehicle)
-    for key, value in plan.changes.items():
+        beside = folder / scenario.vehicle
+        vehicle = load_vehicle(beside if beside.is_file() else scenario.vehicle)
+    for key, value in scenario.changes.items():
         vehicle = vehicle.with_value(key, value)
     vehicle.require_lateral("a mission")
     if ocean is None:
-        ocean = _ocean(plan, folder)
-    mission = Mission(plan, vehicle, ocean, origin, document)
+        ocean = _ocean(scenario, folder)
+    mission = Mission(scenario, vehicle, ocean, origin, document)
     refuse_impossible(mission)
-    return replace(mission, vehicle=ballasted(mission))
+    return replace(mission, vehicle=ballasted(mission.deployment))
 
 
-def _ocean(plan: MissionFile, folder: Path) -> Ocean:
-    choice = plan.ocean
+def _ocean(scenario: ScenarioFile, folder: Path) -> Ocean:
+    choice = scenario.ocean
     beyond: dict[str, Any] = {
         "outside": choice.outside,
         "outside_time": choice.outside_time,
@@ -77,20 +77,20 @@ def _ocean(plan: MissionFile, folder: Path) -> Ocean:
         choice.file,
         names=choice.names,
         bounds=choice.bounds_deg,
-        between=_between(plan),
+        between=_between(scenario),
         at_rest=choice.at_rest,
         parameters=choice.parameters,
         **beyond,
     )
 
 
-def _between(plan: MissionFile) -> tuple[float, float] | None:
+def _between(scenario: ScenarioFile) -> tuple[float, float] | None:
     """Times of the file that the mission needs [s since 1970-01-01 UTC]; None where it needs all of them.
 
     A profile has no times, and the mean of a file, where it is the climatology, is over all of them.
     """
-    choice = plan.ocean
+    choice = scenario.ocean
     of_its_own = "climatology" in (choice.outside, choice.outside_time) and choice.climatology is None
     if is_profile(choice.file) or of_its_own:
         return None
-    return plan.start_seconds, plan.end_seconds
+    return scenario.start_seconds, scenario.end_seconds

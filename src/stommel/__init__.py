@@ -35,6 +35,7 @@ _WHERE = {
     "Mission": "stommel.simulation.scenario.mission",
     "load_mission": "stommel.simulation.scenario.loading",
     "fly_mission": "stommel.simulation.flight",
+    "Simulator": "stommel.simulation.simulator",
     "dataset_of": "stommel.simulation.results.dataset",
     "StommelError": "stommel.errors",
 }
@@ -45,6 +46,7 @@ __all__ = [
     "Mission",
     "Ocean",
     "Physics",
+    "Simulator",
     "SteadyFlight",
     "StommelError",
     "UnreachableFlightError",
@@ -94,6 +96,7 @@ if TYPE_CHECKING:
     from stommel.simulation.results.dataset import dataset_of
     from stommel.simulation.scenario.loading import load_mission
     from stommel.simulation.scenario.mission import Mission
+    from stommel.simulation.simulator import Simulator
     from stommel.vehicle import FULL, PAPER, Physics, Vehicle, builtin_names, load_vehicle
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.simulation.mission_loop import OUTCOMES, RUNNING, fly
+from stommel.simulation.open_loop import Controller, pieces_under
 from stommel.simulation.plant.parameters import Plant
 from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.setup import Setup, prepare, written
@@ -38,10 +39,21 @@ class Flown:
     """Along the path [m]."""
 
 
-def fly_mission(mission: Mission, *, progress: Progress | None = None) -> Flown:
+def fly_mission(mission: Mission, *, controller: Controller | None = None, progress: Progress | None = None) -> Flown:
     """Fly a mission from its start until it is complete, its time is over, or it cannot go on.
 
     The same mission, seed and version give the same bytes.
+
+    Parameters
+    ----------
+    mission
+        From `stommel.load_mission`.
+    controller
+        Decides in place of the vehicle's own software, with the signature of `stommel.control.decision.decide`: memory,
+        orders, readings and time in, commands out. A function that Numba compiled is fast; any other Python callable
+        will do. `stommel.control.own_laws.with_laws` replaces one law of the vehicle's own.
+    progress
+        Called now and then with the share that is flown.
 
     Raises
     ------
@@ -50,14 +62,19 @@ def fly_mission(mission: Mission, *, progress: Progress | None = None) -> Flown:
     """
     setup = prepare(mission)
     piece = max(1, round(_PIECE_DAYS * 86400.0 / setup.loop.control_step))
+    piece_of = _own_software if controller is None else pieces_under(controller)
     outcome, done = RUNNING, 0
     while done < setup.ticks and outcome == RUNNING:
         until = min(setup.ticks, done + piece)
-        outcome = fly(*setup.arguments, done, until)
+        outcome = piece_of(setup, done, until)
         done = until
         if progress is not None:
             progress(done / setup.ticks)
     return flown_of(mission, setup, outcome)
+
+
+def _own_software(setup: Setup, first: int, last: int) -> int:
+    return fly(*setup.arguments, first, last)
 
 
 def flown_of(mission: Mission, setup: Setup, outcome: int) -> Flown:

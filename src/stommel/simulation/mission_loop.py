@@ -6,10 +6,11 @@ from typing import NamedTuple
 import numpy as np
 
 from stommel.compilation import compiled, inlined
-from stommel.control.commands import ABORTED, COMPLETE
+from stommel.control.commands import ABORTED, COMPLETE, Commands
 from stommel.control.decision import decision
 from stommel.control.dive_cycle import INFLECTION, NOTHING, RECOVERY, SURFACE
 from stommel.control.orders import Orders
+from stommel.control.readings import Readings
 from stommel.dynamics.equations import state_from_array
 from stommel.dynamics.state import DEPTH, R_PX, STATE_SIZE, V_B
 from stommel.geometry.attitude import attitude_of
@@ -149,6 +150,73 @@ def _outcome(equipment, x, world, commands, t):  # type: ignore[no-untyped-def] 
     return ABORTED_MISSION if commands.ended == ABORTED else RUNNING
 
 
+@inlined
+def _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick):  # type: ignore[no-untyped-def]  # compiled only
+    """Meet the water and read the sensors: RUNNING or how the mission ended, and the readings."""
+    outcome: int = _look_around(sea, loop, column, x, memory, world, log, tick)
+    water = _water_here(loop, column, x, tick * loop.control_step)
+    return outcome, _sense(equipment, loop, column, x, world, water, noise, tick)
+
+
+@inlined
+def _obey(  # type: ignore[no-untyped-def]  # compiled only
+    equipment, sea, loop, column, x, k, trial, memory, world, noise, log, readings, commands, before, tick
+):
+    """Act, write and move by the commands; returns RUNNING or how the mission ended."""
+    t = tick * loop.control_step
+    water = _water_here(loop, column, x, t)
+    _note(log, memory, world, before, t, x[DEPTH])
+    done = _act(equipment, sea, loop, x, world, water, commands, noise, t)
+    _write(equipment, loop, column, x, memory, world, water, readings, commands, noise, log, tick)
+    advance(equipment, x, k, trial, world, done, loop, column, t)
+    return _outcome(equipment, x, world, commands, t)
+
+
+@compiled
+def begin_step(
+    equipment: Equipment,
+    sea: Sea,
+    loop: Loop,
+    column: Column,
+    x: np.ndarray,
+    memory: np.record,
+    world: np.record,
+    noise: np.random.Generator,
+    log: Log,
+    tick: int,
+) -> tuple[int, Readings]:
+    """First half of a control step: RUNNING or how the mission ended, and what the sensors say."""
+    outcome, readings = _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick)
+    return outcome, readings
+
+
+@compiled
+def end_step(
+    equipment: Equipment,
+    sea: Sea,
+    loop: Loop,
+    column: Column,
+    x: np.ndarray,
+    memory: np.record,
+    world: np.record,
+    noise: np.random.Generator,
+    log: Log,
+    readings: Readings,
+    commands: Commands,
+    before: float,
+    tick: int,
+) -> int:
+    """Second half of a control step: what the vehicle does of its commands; RUNNING or how the mission ended.
+
+    `before` is the phase that the memory held before the decision.
+    """
+    k, trial = np.empty((4, STATE_SIZE)), np.empty(STATE_SIZE)
+    outcome: int = _obey(
+        equipment, sea, loop, column, x, k, trial, memory, world, noise, log, readings, commands, before, tick
+    )
+    return outcome
+
+
 @compiled
 def fly(
     equipment: Equipment,
@@ -170,20 +238,16 @@ def fly(
     pieces with progress between them, with the same result.
     """
     k, trial = np.empty((4, STATE_SIZE)), np.empty(STATE_SIZE)
+    outcome: int = RUNNING
     for tick in range(first_tick, last_tick):
-        t = tick * loop.control_step
-        outcome: int = _look_around(sea, loop, column, x, memory, world, log, tick)
+        outcome, readings = _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick)
         if outcome != RUNNING:
             return outcome
-        water = _water_here(loop, column, x, t)
-        readings = _sense(equipment, loop, column, x, world, water, noise, tick)
         before = memory.phase
-        commands = decision(memory, orders, readings, t)
-        _note(log, memory, world, before, t, x[DEPTH])
-        done = _act(equipment, sea, loop, x, world, water, commands, noise, t)
-        _write(equipment, loop, column, x, memory, world, water, readings, commands, noise, log, tick)
-        advance(equipment, x, k, trial, world, done, loop, column, t)
-        outcome = _outcome(equipment, x, world, commands, t)
+        commands = decision(memory, orders, readings, tick * loop.control_step)
+        outcome = _obey(
+            equipment, sea, loop, column, x, k, trial, memory, world, noise, log, readings, commands, before, tick
+        )
         if outcome != RUNNING:
             return outcome
     return RUNNING

@@ -5,10 +5,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
-from stommel.errors import FileError, Problem
-from stommel.files.sentences import sentences
+from stommel.files.opening import beside
+from stommel.files.sentences import validated
 from stommel.files.toml_reader import read_toml
 from stommel.ocean.answers import is_profile
 from stommel.ocean.ocean import Ocean
@@ -43,13 +41,9 @@ def mission_from(
 
     `vehicle` and `ocean`, already loaded, stand in for the file's own.
     """
-    try:
-        plan = MissionFile.model_validate(document)
-    except ValidationError as error:
-        raise FileError([Problem(origin, key, text) for key, text in sentences(error, MissionFile)]) from None
+    plan = validated(document, MissionFile, origin)
     if vehicle is None:
-        beside = folder / plan.vehicle
-        vehicle = load_vehicle(beside if beside.is_file() else plan.vehicle)
+        vehicle = load_vehicle(beside(folder, plan.vehicle))
     for key, value in plan.changes.items():
         vehicle = vehicle.with_value(key, value)
     vehicle.require_lateral("a mission")

@@ -46,7 +46,7 @@ _PLAIN = {
 """What is allowed, by kind of error."""
 
 
-_MOST_PROBLEMS = 100
+MOST_PROBLEMS = 100
 """Sentences about one file; the rest are counted."""
 _LONGEST_KEY = 120
 
@@ -74,9 +74,9 @@ def unit_of(key: str) -> str | None:
 def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[str, str]]:
     """Return (key, sentence) for each of the errors, unknown keys first: they often explain the missing ones."""
     details = sorted(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
-    found = [(dotted(detail["loc"]), sentence(detail, model)) for detail in details[:_MOST_PROBLEMS]]
-    if len(details) > _MOST_PROBLEMS:
-        found.append(("", f"and {len(details) - _MOST_PROBLEMS} more problems"))
+    found = [(dotted(detail["loc"]), sentence(detail, model)) for detail in details[:MOST_PROBLEMS]]
+    if len(details) > MOST_PROBLEMS:
+        found.append(("", f"and {len(details) - MOST_PROBLEMS} more problems"))
     return list({words: (key, words) for key, words in found}.values())  # a short list misses several entries
 
 

@@ -13,7 +13,7 @@ from stommel.errors import FileError, Problem, StommelError
 from stommel.files.fields import Finite, Positive, Table
 from stommel.files.opening import TOML_MIB, read_text
 from stommel.files.provenance import separate
-from stommel.files.sentences import validated
+from stommel.files.sentences import MOST_PROBLEMS, dotted, validated
 from stommel.files.toml_reader import parse_toml
 from stommel.vehicle import Provenance
 
@@ -130,11 +130,12 @@ def materials_from_text(text: str, origin: str) -> tuple[Material, ...]:
         try:
             properties = validated(table, Properties, origin)
         except FileError as error:
-            problems += [
-                Problem(origin, f"{name}.{found.key}", f"[{name}] {found.message}") for found in error.problems
-            ]
-            continue
-        materials.append(Material(name, properties, _below(name, provenance)))
+            words = dotted([name])
+            problems += [Problem(origin, f"{words}.{one.key}", f"[{words}] {one.message}") for one in error.problems]
+            if len(problems) >= MOST_PROBLEMS:
+                break
+        else:
+            materials.append(Material(name, properties, _below(name, provenance)))
     if problems:
         raise FileError(problems)
     return tuple(materials)

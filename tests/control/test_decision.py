@@ -60,7 +60,7 @@ def test_called_alone_it_flies_the_same_bytes(own: Flown) -> None:
     while simulator.running:
         simulator.step(decide(simulator.memory, simulator.orders, simulator.readings, simulator.time))
     same(simulator.flown(), own, rtol=0.0)
-    with pytest.raises(MissionOverError, match="test.toml: the mission is over: time over"):
+    with pytest.raises(MissionOverError, match=r"test\.toml: the mission is over: time over"):
         simulator.step(Commands(0.25, 0.0, 0.0, 1e-3, 0, False, False, GOING_ON))
 
 
@@ -89,7 +89,7 @@ def test_one_law_may_be_replaced() -> None:
 
 
 def test_unknown_law_is_named() -> None:
-    with pytest.raises(UnknownLawError, match="steering: is no law of the vehicle; known are .*steering_command"):
+    with pytest.raises(UnknownLawError, match=r"steering: is no law of the vehicle; known are .*steering_command"):
         with_laws(steering=lambda: 0.0)
 
 

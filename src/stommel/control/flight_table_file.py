@@ -10,13 +10,12 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
 from stommel.control.flight_table import FlightTable
 from stommel.errors import FileError, Problem
 from stommel.files.fields import Finite, Positive, Table
-from stommel.files.sentences import sentences
-from stommel.files.toml_reader import read_toml
+from stommel.files.toml_reader import read_table
 from stommel.files.whole import write_whole
 
 _MOST = 200
@@ -132,17 +131,13 @@ def read_flight_table(path: str | Path, vehicle_sha256: str | None = None) -> tu
     FileError
         The file cannot be read, is no flight table, or is one of another vehicle.
     """
-    origin, document = str(path), read_toml(path)
-    try:
-        file = _FlightTableFile.model_validate(document)
-    except ValidationError as error:
-        raise FileError([Problem(origin, key, text) for key, text in sentences(error, _FlightTableFile)]) from None
+    file = read_table(path, _FlightTableFile)
     if vehicle_sha256 is not None and file.vehicle_sha256 != vehicle_sha256:
         text = (
             f"vehicle_sha256 = {file.vehicle_sha256[:12]}...: the table is of another vehicle than "
             f"{vehicle_sha256[:12]}...; write it anew with `stommel flight-table`"
         )
-        raise FileError([Problem(origin, "vehicle_sha256", text)])
+        raise FileError([Problem(str(path), "vehicle_sha256", text)])
     ways = (file.dive, file.climb)
     table = FlightTable(
         theta=np.radians(file.pitch_deg),

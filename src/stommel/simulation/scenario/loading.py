@@ -5,11 +5,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from stommel.errors import FileError, Problem
-from stommel.files.sentences import sentences
+from stommel.files.opening import beside
+from stommel.files.sentences import validated
 from stommel.files.toml_reader import read_toml
+from stommel.mission.plan import Plan
 from stommel.ocean.answers import is_profile
 from stommel.ocean.ocean import Ocean
 from stommel.planning.ballasting import ballasted
@@ -43,13 +43,10 @@ def mission_from(
 
     `vehicle` and `ocean`, already loaded, stand in for the file's own.
     """
-    try:
-        scenario = ScenarioFile.model_validate(document)
-    except ValidationError as error:
-        raise FileError([Problem(origin, key, text) for key, text in sentences(error, ScenarioFile)]) from None
+    document = with_its_plan(document, origin, folder)
+    scenario = validated(document, ScenarioFile, origin)
     if vehicle is None:
-        beside = folder / scenario.vehicle
-        vehicle = load_vehicle(beside if beside.is_file() else scenario.vehicle)
+        vehicle = load_vehicle(beside(folder, scenario.vehicle))
     for key, value in scenario.changes.items():
         vehicle = vehicle.with_value(key, value)
     vehicle.require_lateral("a mission")
@@ -58,6 +55,29 @@ def mission_from(
     mission = Mission(scenario, vehicle, ocean, origin, document)
     refuse_impossible(mission)
     return replace(mission, vehicle=ballasted(mission.deployment))
+
+
+def with_its_plan(document: Mapping[str, Any], origin: str, folder: Path) -> Mapping[str, Any]:
+    """Return the values of a scenario's file with those of the plan that it names, if it names one.
+
+    Raises
+    ------
+    FileError
+        The plan cannot be read or used, or the scenario says again what its plan says.
+    """
+    if "plan" not in document:
+        return document
+    named = document["plan"]
+    if not isinstance(named, str) or not named:
+        raise FileError([Problem(origin, "plan", f"plan = {named!r}: must be text, the name of a plan's file")])
+    path = beside(folder, named)
+    plan = read_toml(path)
+    validated(plan, Plan, str(path))
+    again = [key for key in document if key in Plan.model_fields and key not in ("format", "name")]
+    if again:
+        told = f"stands here and in the plan {named}; a scenario that names a plan adds the world to it, nothing else"
+        raise FileError([Problem(origin, key, f"{key}: {told}") for key in again])
+    return plan | {key: value for key, value in document.items() if key != "plan"}
 
 
 def _ocean(scenario: ScenarioFile, folder: Path) -> Ocean:

@@ -31,7 +31,7 @@ _WHERE = {
     "trim_table": "stommel.analysis",
     "turn": "stommel.analysis",
     "design_study": "stommel.design.study",
-    "write_report": "stommel.design.report",
+    "write_report": "stommel.report",
     "Mission": "stommel.simulation.scenario.mission",
     "load_mission": "stommel.simulation.scenario.loading",
     "fly_mission": "stommel.simulation.flight",
@@ -88,10 +88,10 @@ if TYPE_CHECKING:
         trim_table,
         turn,
     )
-    from stommel.design.report import write_report
     from stommel.design.study import design_study
     from stommel.errors import StommelError
     from stommel.ocean import Ocean
+    from stommel.report import write_report
     from stommel.simulation.flight import fly_mission
     from stommel.simulation.results.dataset import dataset_of
     from stommel.simulation.scenario.loading import load_mission

@@ -73,8 +73,8 @@ def test_the_study_takes_speeds_and_pressures_of_section_512(study: SpeedStudy) 
 
 
 def test_the_design_report_has_the_section() -> None:
-    from stommel.design.report.page import report_html
     from stommel.design.study import design_study
+    from stommel.report.page import report_html
 
     page = report_html(design_study(load_vehicle("zju")))
     section = page.partition('<section id="motor-speed">')[2].partition("</section>")[0]

@@ -2,8 +2,8 @@
 
 import pytest
 
-from stommel.design.report import report_html
 from stommel.design.study import design_study
+from stommel.report import report_html
 from stommel.vehicle import Vehicle, load_vehicle, vehicle_from_text
 from stommel.vehicle.loading import builtin_text
 

@@ -33,7 +33,7 @@ def design(
     path = output or Path(f"{Path(vehicle).stem}-design.html")
     study = design_study(glider, physics=physics_of(physics), progress=_progress(as_json))
     if report:
-        from stommel.design.report import write_report
+        from stommel.report import write_report
 
         write_report(study, path)
     if as_json:

@@ -51,8 +51,8 @@ def root_locus(
     )
     written: list[Path] = []
     if plot:
-        from stommel.design.plots import root_locus_figure
         from stommel.figures.saving import save_figure
+        from stommel.report.plots import root_locus_figure
 
         stem = output or Path(f"{Path(vehicle).stem}-root-locus-{over}")
         written = save_figure(root_locus_figure(locus), stem)

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from importlib import resources
 from typing import Any
 
-from stommel.design.hull import paper_formulas
-from stommel.design.hull.materials import Material, find_material
 from stommel.design.hull.requirement import Requirement
 from stommel.design.hull.sizing import SizedHull, size
 from stommel.files.toml_reader import parse_toml
+from stommel.machinery.hull import paper_formulas
+from stommel.machinery.hull.materials import Material, find_material
 
 
 @dataclass(frozen=True)

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from stommel.design.hull.comparison import ComparedQuantity, PublishedTable, published_table
-from stommel.design.hull.materials import Material, MaterialError, find_material, load_materials
 from stommel.design.hull.ranking import Ranked, ranked
 from stommel.design.hull.requirement import HullError, Requirement, requirement
 from stommel.design.hull.sizing import HullWarning, SizedHull, size
+from stommel.machinery.hull.materials import Material, MaterialError, find_material, load_materials
 from stommel.vehicle import Vehicle
 
 _ROUGHLY = 0.1

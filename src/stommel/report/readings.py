@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.analysis import Modes, RootLocus
-from stommel.design.plots import TradeOff, planes_of, trade_off
-from stommel.design.report.wording import joined, percent, short
+from stommel.report.plots import TradeOff, planes_of, trade_off
+from stommel.report.wording import joined, percent, short
 
 _FLAT = 0.01
 """Relative change below which a quantity counts as constant."""

@@ -9,7 +9,9 @@ from stommel.design.drives.figure import drives_figure
 from stommel.design.endurance.figure import endurance_figure
 from stommel.design.engine.engine_plot import engine_figure
 from stommel.design.hull.plot import hull_figure
-from stommel.design.plots import (
+from stommel.design.study import DesignStudy
+from stommel.figures.saving import svg_text
+from stommel.report.plots import (
     authority_figure,
     envelope_figure,
     modes_figure,
@@ -19,8 +21,6 @@ from stommel.design.plots import (
     turns_figure,
     vehicle_figure,
 )
-from stommel.design.study import DesignStudy
-from stommel.figures.saving import svg_text
 
 if TYPE_CHECKING:
     from markupsafe import Markup

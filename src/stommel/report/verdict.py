@@ -8,8 +8,8 @@ from typing import Literal
 
 from stommel.analysis import EnvelopeRow, SteadyFlight
 from stommel.analysis.limits import excesses
-from stommel.design.report.wording import fixed, short, why_unanswered
 from stommel.design.study import DesignStudy
+from stommel.report.wording import fixed, short, why_unanswered
 
 Tone = Literal["good", "bad", "plain", "unknown"]
 

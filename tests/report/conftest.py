@@ -5,8 +5,8 @@ from functools import cache
 
 import pytest
 
-from stommel.design.report import report_html
 from stommel.design.study import DesignStudy, design_study
+from stommel.report import report_html
 from stommel.vehicle import load_vehicle
 
 

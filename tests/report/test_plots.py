@@ -13,7 +13,9 @@ import numpy as np
 import pytest
 
 from stommel.analysis import RootLocus, root_locus
-from stommel.design.plots import (
+from stommel.errors import OutputError
+from stommel.figures.saving import png_bytes, save_figure, svg_text
+from stommel.report.plots import (
     authority_figure,
     envelope_figure,
     modes_figure,
@@ -23,8 +25,6 @@ from stommel.design.plots import (
     turns_figure,
     vehicle_figure,
 )
-from stommel.errors import OutputError
-from stommel.figures.saving import png_bytes, save_figure, svg_text
 from stommel.vehicle import builtin_names, builtin_text, load_vehicle, vehicle_from_text
 
 NAMES = pytest.mark.parametrize("name", builtin_names())
@@ -250,7 +250,8 @@ def test_no_missing_font(loci, caplog):
 def test_pyplot_is_never_loaded() -> None:
     """In a process of its own: other tests load python-control, which loads pyplot."""
     code = (
-        "import sys, stommel; from stommel.design.plots import root_locus_figure, svg_text; "
+        "import sys, stommel; from stommel.figures.saving import svg_text; "
+        "from stommel.report.plots import root_locus_figure; "
         "zju = stommel.load_vehicle('zju'); "
         "svg_text(root_locus_figure(stommel.root_locus(zju, 'wing_position', 0, 0.2, points=3))); "
         "sys.exit('matplotlib.pyplot' in sys.modules)"

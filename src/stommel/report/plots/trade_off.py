@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.analysis import Modes, RootLocus
-from stommel.design.plots.complex_plane import nearest_mode
-from stommel.design.plots.root_locus_plot import Plane
+from stommel.report.plots.complex_plane import nearest_mode
+from stommel.report.plots.root_locus_plot import Plane
 
 Series = NDArray[np.float64]
 

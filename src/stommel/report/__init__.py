@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from stommel.design.report.page import report_html
 from stommel.design.study import DesignStudy
 from stommel.files.whole import write_whole
+from stommel.report.page import report_html
 
 __all__ = ["report_html", "write_report"]
 

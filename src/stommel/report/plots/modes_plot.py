@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from stommel.analysis import Mode
-from stommel.design.plots.complex_plane import prepare, write_names
 from stommel.design.study import DesignStudy
 from stommel.figures.style import BLUE, MUTED, VERMILION, new_figure, number, styled
+from stommel.report.plots.complex_plane import prepare, write_names
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,12 +9,12 @@ from typing import Any
 from stommel.analysis import LinearModel, Mode
 from stommel.analysis.limits import excesses
 from stommel.design.endurance.study import MODEL_ASSUMPTIONS
-from stommel.design.plots import planes_of
-from stommel.design.report import wording
-from stommel.design.report.figures import figures
-from stommel.design.report.readings import locus_heading, locus_reading
-from stommel.design.report.verdict import at_stall, nearest_limit, summary, verdict
 from stommel.design.study import DesignStudy
+from stommel.report import wording
+from stommel.report.figures import figures
+from stommel.report.plots import planes_of
+from stommel.report.readings import locus_heading, locus_reading
+from stommel.report.verdict import at_stall, nearest_limit, summary, verdict
 from stommel.vehicle import PHYSICS, Physics
 from stommel.version import __version__
 
@@ -61,7 +61,7 @@ def report_html(study: DesignStudy) -> str:
     from markupsafe import Markup  # noqa: PLC0415 - comes with jinja2
 
     environment = Environment(
-        loader=PackageLoader("stommel.design.report"),
+        loader=PackageLoader("stommel.report"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

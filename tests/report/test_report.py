@@ -9,11 +9,11 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
-from stommel.design.report import report_html, write_report
-from stommel.design.report.readings import locus_reading, trend
-from stommel.design.report.wording import fixed, signed, unit
 from stommel.design.study import design_study
 from stommel.errors import OutputError
+from stommel.report import report_html, write_report
+from stommel.report.readings import locus_reading, trend
+from stommel.report.wording import fixed, signed, unit
 from stommel.vehicle import FULL, builtin_names, builtin_text, vehicle_from_text
 
 NAMES = pytest.mark.parametrize("name", builtin_names())
@@ -276,6 +276,6 @@ def test_written_whole_or_not_at_all(study_of, report_of, tmp_path):
 
 
 def test_importing_the_report_does_not_load_matplotlib_or_jinja():
-    code = "import sys, stommel.design.report; print([m for m in ('matplotlib', 'jinja2') if m in sys.modules])"
+    code = "import sys, stommel.report; print([m for m in ('matplotlib', 'jinja2') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

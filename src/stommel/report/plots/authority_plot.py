@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stommel.analysis import Modes, RootLocus
-from stommel.design.plots.root_locus_plot import Plane, heading, planes_of
-from stommel.design.plots.trade_off import TradeOff, trade_off
 from stommel.figures.style import CYCLE, DASHES, INK, MUTED, at_least_span, new_figure, number, styled
+from stommel.report.plots.root_locus_plot import Plane, heading, planes_of
+from stommel.report.plots.trade_off import TradeOff, trade_off
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

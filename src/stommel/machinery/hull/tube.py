@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from math import pi
 
-from stommel.design.hull.elasticity import tube_compressibility
-from stommel.design.hull.materials import Material
+from stommel.machinery.hull.elasticity import tube_compressibility
+from stommel.machinery.hull.materials import Material
 
 
 @dataclass(frozen=True)

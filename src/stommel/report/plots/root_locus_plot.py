@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from stommel.analysis import Modes, RootLocus
-from stommel.design.plots.complex_plane import Eigenvalues, prepare, write_names
 from stommel.figures.style import CYCLE, DASHES, INK, legend_below, new_figure, number, styled
+from stommel.report.plots.complex_plane import Eigenvalues, prepare, write_names
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

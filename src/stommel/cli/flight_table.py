@@ -34,7 +34,7 @@ def flight_table(
 
     glider = load(vehicle)
     table = computed(glider, physics=physics_of(physics))
-    density = glider.description.water.density_kg_m3
+    density = glider.neutral_density_kg_m3
     header = FlightTableHeader(glider.name, fingerprint(glider), physics.value, density, __version__)
     if output is not None:
         write_flight_table(output, table, header)

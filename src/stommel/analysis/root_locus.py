@@ -15,7 +15,7 @@ from stommel.analysis.linearization import Linearization, linearise
 from stommel.analysis.request import RequestError
 from stommel.analysis.trim import trim
 from stommel.errors import StommelError
-from stommel.files.sentences import unit_of
+from stommel.files.units import unit_of
 from stommel.vehicle import PAPER, Physics, Vehicle
 
 POSITIONS = {

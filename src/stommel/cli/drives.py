@@ -156,12 +156,12 @@ def _point_json(point: "PitchPoint") -> dict[str, Any]:
         "direction": "forward" if point.direction > 0 else "aft",
         "uphill": point.uphill,
         "load_n": point.load,
-        "torque_mnm": point.motor.torque * 1e3,
+        "torque_mn_m": point.motor.torque * 1e3,
         "current_a": point.motor.current,
         "speed_mm_s": point.speed * 1e3,
         "power_w": point.motor.power,
         "energy_j_per_mm": None if energy is None else energy / 1e3,
-        "starting_torque_mnm": point.starting_torque * 1e3,
+        "starting_torque_mn_m": point.starting_torque * 1e3,
         "stall_margin": _finite(point.stall_margin),
         "starts": point.starts,
     }
@@ -208,7 +208,7 @@ def _rudder_json(study: "RudderStudy") -> dict[str, Any]:
     turn = study.turn
     return {
         "speed_through_water_m_s": study.V,
-        "hinge_moment_mnm": study.hinge_moment * 1e3,
+        "hinge_moment_mn_m": study.hinge_moment * 1e3,
         "full_step": study.full_step.as_row() if study.full_step else None,
         "speed_deg_s": None if study.speed is None else degrees(study.speed),
         "file_speed_deg_s": None if study.file_speed is None else degrees(study.file_speed),

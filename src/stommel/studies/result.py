@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.errors import OutputError
-from stommel.files.sentences import unit_of
+from stommel.files.units import unit_of
 from stommel.files.whole import write_whole
 from stommel.studies.errors import StudyError
 from stommel.studies.sampling import sweep_values
@@ -128,9 +128,16 @@ def _column(values: list[Any]) -> NDArray[Any]:
     return np.array(values, dtype=object if isinstance(values[0], str) else np.float64)
 
 
+_CF_UNITS = {"degrees": "degree", "deg C": "degree_C", "r/min": "rpm", "psu": "1"}
+"""As the units library of NetCDF spells what people write otherwise."""
+
+
 def _about(name: str) -> dict[str, str]:
-    unit = unit_of(name)
-    return {"units": unit} if unit is not None else {}
+    """Unit of a parameter or output; of a number in a table of the summary, as energy_wh_pump, the table says it."""
+    parts = name.split("_")
+    tables = ["_".join(parts[:count]) for count in range(len(parts), 0, -1)]
+    unit = next((unit for table in tables if (unit := unit_of(table)) is not None), None)
+    return {"units": _CF_UNITS.get(unit, unit)} if unit is not None else {}
 
 
 def _sensitivity(found: Sensitivity) -> dict[str, Any]:

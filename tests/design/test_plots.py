@@ -250,7 +250,8 @@ def test_no_missing_font(loci, caplog):
 def test_pyplot_is_never_loaded() -> None:
     """In a process of its own: other tests load python-control, which loads pyplot."""
     code = (
-        "import sys, stommel; from stommel.design.plots import root_locus_figure, svg_text; "
+        "import sys, stommel; from stommel.design.plots import root_locus_figure; "
+        "from stommel.figures.saving import svg_text; "
         "zju = stommel.load_vehicle('zju'); "
         "svg_text(root_locus_figure(stommel.root_locus(zju, 'wing_position', 0, 0.2, points=3))); "
         "sys.exit('matplotlib.pyplot' in sys.modules)"

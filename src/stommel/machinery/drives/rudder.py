@@ -73,6 +73,18 @@ class RudderTurn:
         """Energy of the whole turn [J]."""
         return self.out.energy + self.back.energy + self.brake_energy + self.hold_energy
 
+    def as_row(self) -> dict[str, float]:
+        """Words with units."""
+        return {
+            "angle_deg": degrees(self.angle),
+            "hold_s": self.hold,
+            "energy_j": self.energy,
+            "motor_energy_j": self.out.energy + self.back.energy,
+            "brake_energy_j": self.brake_energy,
+            "brake_energy_per_release_j": self.brake_per_release,
+            "hold_energy_j": self.hold_energy,
+        }
+
 
 @dataclass(frozen=True)
 class RudderDrive:

@@ -22,7 +22,7 @@ from sphinx.util import logging
 import stommel
 from stommel.files.fields import Table
 from stommel.files.sentences import allowed_range, unit_of
-from stommel.simulation.scenario.mission_file import MissionFile
+from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle.schema import VehicleFile
 
 logger = logging.getLogger(__name__)
@@ -174,7 +174,7 @@ def write_pages(app: Sphinx) -> None:
     folder = Path(app.srcdir) / "_generated"
     meanings = tomllib.loads((Path(app.srcdir) / "guide" / "meanings.toml").read_text(encoding="utf-8"))
     _write(folder / "vehicle-file.md", "".join(file_tables(VehicleFile, meanings["meaning"], "vehicle file")))
-    _write(folder / "mission-file.md", "".join(file_tables(MissionFile, meanings["mission"], "mission file")))
+    _write(folder / "mission-file.md", "".join(file_tables(ScenarioFile, meanings["mission"], "mission file")))
     _write(folder / "validation.md", validation_report())
     packages = [f"stommel.{info.name}" for info in pkgutil.iter_modules(stommel.__path__) if info.ispkg]
     reference = folder / "reference"

@@ -88,7 +88,7 @@ def test_a_failed_pressure_test_is_a_result(stommel: Command, tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("analyse", "nowhere.csv"), ["nowhere.csv", "no column map"]),
+        (("analyse", "nowhere.csv"), ["nowhere.csv: cannot be read: No such file"]),
         (("analyse", "bench.csv", "--column", "pressure"), ["--column 'pressure'", "QUANTITY=COLUMN:UNIT"]),
         (("analyse", "bench.csv", "--column", "depth=d:m"), ["depth=d:m", "pressure, motor_speed"]),
         (("analyse", "bench.csv", "--column", "pressure=pressure_mpa:atm"), ["'atm'", "unknown unit"]),

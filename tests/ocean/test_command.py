@@ -37,7 +37,7 @@ def test_terminal_fits_80_columns(stommel: Command) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("nowhere.nc",), ["nowhere.nc", "cannot be read as NetCDF"]),
+        (("nowhere.nc",), ["nowhere.nc: cannot be read: No such file"]),
         (("atlantis",), ["atlantis", "neither an analytic ocean nor a file", "gyre"]),
         (("pool", "--set", "depth=4"), ["unknown parameter depth", "bottom_m"]),
         (("pool", "--set", "depth"), ["--set depth", "NAME=VALUE"]),
@@ -54,7 +54,7 @@ def test_terminal_fits_80_columns(stommel: Command) -> None:
         (("gyre", "--at", "0,0"), ["outside the ocean", "latitude 28"]),
         (("gyre", "--at", "0,0", "--outside", "zero"), ["outside = 'zero'", "hold"]),
         (("gyre", "--at", "0,0", "--climatology", "pool"), ["climatology: is only used with outside"]),
-        (("gyre", "--outside", "climatology", "--climatology", "no.nc"), ["no.nc", "no such file"]),
+        (("gyre", "--outside", "climatology", "--climatology", "no.nc"), ["no.nc: cannot be read: No such file"]),
         (("gyre", "--at", "0,0", "--plot", "map"), ["outside the ocean"]),
         (("east_china_sea", "--plot", "map", "--depth", "3000"), ["its deepest bottom is at 1200 m"]),
         (("gyre", "--plot", ""), ["--plot", "must name a picture"]),
@@ -66,7 +66,7 @@ def test_terminal_fits_80_columns(stommel: Command) -> None:
         (("sea.nc", "--bounds", "1,2,3,inf"), ["--bounds '1,2,3,inf'"]),
         (("sea.nc", "--between", "2016"), ["--between '2016'", "two times"]),
         (("sea_*.nc",), ["sea_*.nc", "no file matches"]),
-        (("folder/",), ["no such file"]),
+        (("folder/",), ["folder: cannot be read: No such file"]),
         (("..",), ["is a folder"]),
     ],
 )

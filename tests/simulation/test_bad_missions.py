@@ -96,7 +96,7 @@ def arctic(path: Path, **changes: object) -> Document:
 
 
 def test_arctic_mission_is_accepted(arctic20: Path) -> None:
-    assert made(arctic(arctic20)).plan.duration_days == 2.0
+    assert made(arctic(arctic20)).scenario.duration_days == 2.0
 
 
 @pytest.mark.parametrize(
@@ -119,7 +119,7 @@ def test_place_and_time_in_a_file(arctic20: Path, changes: Document, words: list
 
 def test_file_that_holds_its_last_values_may_be_left_in_time(arctic20: Path) -> None:
     held = {"file": str(arctic20), "outside_time": "hold"}
-    assert made(arctic(arctic20, duration_days=30.0, ocean=held)).plan.ocean.outside_time == "hold"
+    assert made(arctic(arctic20, duration_days=30.0, ocean=held)).scenario.ocean.outside_time == "hold"
 
 
 def test_missing_ocean_file_is_named(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ import typer
 from stommel.cli.options import JsonOption
 from stommel.cli.output import number, show_json, show_values
 from stommel.errors import StommelError
+from stommel.files.opening import names_file
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -153,7 +154,7 @@ def _open(given: list[str], choice: dict[str, Any], policies: dict[str, Any]) ->
 
 
 def _looks_like_a_file(name: str) -> bool:
-    return Path(name).exists() or bool(Path(name).suffix) or any(mark in name for mark in "*?[/\\")
+    return names_file(name) or any(mark in name for mark in "*?[")
 
 
 def _pairs(texts: list[str], option: str) -> dict[str, str]:

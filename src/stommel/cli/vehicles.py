@@ -35,12 +35,11 @@ def show(
     as_json: JsonOption = False,
 ) -> None:
     """Show every number of a vehicle with its source, assumptions marked."""
-    from stommel.vehicle import builtin_names, builtin_text, stated_numbers
+    from stommel.vehicle import stated_numbers, vehicle_text
 
     glider = load(vehicle)
     if toml:
-        text = builtin_text(vehicle) if vehicle in builtin_names() else Path(vehicle).read_text(encoding="utf-8")
-        typer.echo(text, nl=False)
+        typer.echo(vehicle_text(vehicle), nl=False)
         return
     if as_json:
         numbers = [

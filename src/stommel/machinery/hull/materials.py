@@ -1,19 +1,20 @@
 """What hulls are made of: a table of materials with the source of each number."""
 
 import difflib
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
 from stommel.errors import FileError, Problem, StommelError
 from stommel.files.fields import Finite, Positive, Table
-from stommel.files.provenance import ProvenanceError, separate
-from stommel.files.sentences import sentences
+from stommel.files.opening import TOML_MIB, read_text
+from stommel.files.provenance import separate
+from stommel.files.sentences import MOST_PROBLEMS, dotted, validated
+from stommel.files.toml_reader import parse_toml
 from stommel.vehicle import Provenance
 
 TABLE = "materials.toml"
@@ -109,10 +110,7 @@ def load_materials(path: Path | None = None) -> tuple[Material, ...]:
     text = (resources.files(__package__) / TABLE).read_text(encoding="utf-8")
     found = {material.name: material for material in materials_from_text(text, TABLE)}
     if path is not None:
-        try:
-            text = path.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise FileError([Problem(str(path), "", f"cannot be read: {error}")]) from error
+        text = read_text(path, TOML_MIB)
         found |= {material.name: material for material in materials_from_text(text, str(path))}
     return tuple(found.values())
 
@@ -125,22 +123,19 @@ def materials_from_text(text: str, origin: str) -> tuple[Material, ...]:
     FileError
         As `load_materials`.
     """
-    try:
-        document, provenance = separate(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
-        raise FileError([Problem(origin, "", f"is not valid TOML: {error}")]) from error
-    except ProvenanceError as error:
-        raise FileError([Problem(origin, error.key, str(error))]) from error
+    document, provenance = separate(parse_toml(text, origin), origin)
     problems: list[Problem] = []
     materials = []
     for name, table in document.items():
         try:
-            properties = Properties.model_validate(table)
-        except ValidationError as error:
-            for key, sentence in sentences(error, Properties):
-                problems.append(Problem(origin, f"{name}.{key}", f"[{name}] {sentence}"))
-            continue
-        materials.append(Material(name, properties, _below(name, provenance)))
+            properties = validated(table, Properties, origin)
+        except FileError as error:
+            words = dotted([name])
+            problems += [Problem(origin, f"{words}.{one.key}", f"[{words}] {one.message}") for one in error.problems]
+            if len(problems) >= MOST_PROBLEMS:
+                break
+        else:
+            materials.append(Material(name, properties, _below(name, provenance)))
     if problems:
         raise FileError(problems)
     return tuple(materials)

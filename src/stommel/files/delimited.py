@@ -4,8 +4,8 @@ import csv
 from dataclasses import dataclass
 from pathlib import Path
 
-from stommel.bench.failures import BenchFileError, refuse
-from stommel.errors import Problem
+from stommel.errors import FileError, Problem
+from stommel.files.opening import TABLE_MIB, read_text
 
 
 @dataclass(frozen=True)
@@ -25,48 +25,52 @@ class Delimited:
 
         Raises
         ------
-        BenchFileError
+        FileError
             There is no such column.
         """
         if column not in self.header:
-            raise refuse(self.file, column, f"missing; the file has: {', '.join(self.header)}")
+            raise _refused(self.file, column, f"column {column!r}: missing; the file has: {', '.join(self.header)}")
         at = self.header.index(column)
         return [row[at] for row in self.rows]
 
 
-def read_delimited(path: Path, delimiter: str = ",") -> Delimited:
+def read_delimited(path: str | Path, delimiter: str = ",") -> Delimited:
     """Read a table with one line of column names; blank lines and lines that begin with # are no rows.
 
     Raises
     ------
-    BenchFileError
+    FileError
         The file cannot be read, has no rows, a column twice, or a row of another length than its header.
     """
     name = str(path)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else f"is not UTF-8 text ({error.reason})"
-        raise BenchFileError([Problem(name, "", f"cannot be read: {reason}")]) from error
     content, comments = [], []
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(read_text(path, TABLE_MIB).split("\n"), start=1):
         if line.lstrip().startswith("#"):
             comments.append(line.lstrip().lstrip("#").strip())
         elif line.strip(" \t" + delimiter):
             content.append((number, line))
     if len(content) < 2:
-        raise refuse(name, "", "has no rows below a line of column names")
-    parsed = [
-        tuple(cell.strip() for cell in row) for row in csv.reader([line for _, line in content], delimiter=delimiter)
-    ]
-    header, rows = parsed[0], tuple(parsed[1:])
+        raise _refused(name, "", "has no rows below a line of column names")
+    header, *rows = _cells(name, [line for _, line in content], delimiter)
     lines = tuple(number for number, _ in content[1:])
     if len(rows) != len(lines):
-        raise refuse(name, "", "has a quoted cell that runs over the end of its line")
+        raise _refused(name, "", "has a quoted cell that runs over the end of its line")
     twice = [column for k, column in enumerate(header) if column in header[:k]]
     if twice:
-        raise refuse(name, twice[0], "stands twice in the line of column names")
+        raise _refused(name, twice[0], f"column {twice[0]!r}: stands twice in the line of column names")
     for row, number in zip(rows, lines, strict=True):
         if len(row) != len(header):
-            raise refuse(name, "", f"row {number}: has {len(row)} cells where the column names are {len(header)}")
-    return Delimited(name, header, rows, lines, tuple(comments))
+            text = f"row {number}: has {len(row)} cells where the column names are {len(header)}"
+            raise _refused(name, "", text)
+    return Delimited(name, header, tuple(rows), lines, tuple(comments))
+
+
+def _cells(name: str, lines: list[str], delimiter: str) -> list[tuple[str, ...]]:
+    try:
+        return [tuple(cell.strip() for cell in row) for row in csv.reader(lines, delimiter=delimiter)]
+    except csv.Error as error:  # a cell of more than 128 KiB
+        raise _refused(name, "", f"is not a table of numbers: {error}") from None
+
+
+def _refused(file: str, column: str, message: str) -> FileError:
+    return FileError([Problem(file, column, message)])

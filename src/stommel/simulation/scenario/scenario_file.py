@@ -1,36 +1,32 @@
-"""What a mission file may say: where to go, how to dive, what the ocean and the sensors are like."""
+"""What a scenario file may say: a plan, and the world that it is flown in."""
 
 from datetime import UTC, datetime
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Finite, Positive, Table
-from stommel.mission.plan import (
-    Aborts,
+from stommel.files.fields import Finite, Positive
+from stommel.mission.plan import Plan, Position
+from stommel.simulation.scenario.world_tables import (
     Ballasting,
-    Dives,
-    DriftControl,
-    Guidance,
-    HeadingControl,
-    PitchControl,
-    Position,
-    Sampling,
-    Surfacing,
+    Ctd,
+    HullAir,
+    Integration,
+    Leak,
+    OceanChoice,
+    Sensing,
+    Waves,
 )
-from stommel.simulation.scenario.world_tables import Ctd, HullAir, Integration, Leak, OceanChoice, Sensing, Waves
 
 LONGEST_LATENCY = 16
 """Control steps by which a measurement may reach the software late, and one."""
 
 
-class MissionFile(Table):
-    """A mission, as its file describes it."""
+class ScenarioFile(Plan):
+    """A scenario, as its file describes it: what the vehicle is told, and beside it what the world is like."""
 
-    format: Literal[1] = 1
-    name: Annotated[str, Field(min_length=1)]
     vehicle: Annotated[str, Field(min_length=1)]
-    """Built-in vehicle or vehicle file, beside the mission file."""
+    """Built-in vehicle or vehicle file, beside the scenario file."""
     changes: dict[str, Finite] = Field(default_factory=dict)
     """Numbers of the vehicle file that this mission changes, by their dotted keys."""
     physics: Literal["paper", "full"] = "full"
@@ -44,16 +40,7 @@ class MissionFile(Table):
     start: Position
     heading_deg: Finite = 0.0
     """At the start."""
-    waypoints: tuple[Position, ...] = ()
-    dives: Dives
-    surface: Surfacing = Surfacing()
     ballasting: Ballasting = Ballasting()
-    guidance: Guidance = Guidance()
-    abort: Aborts = Aborts()
-    pitch_control: PitchControl = PitchControl()
-    heading_control: HeadingControl = HeadingControl()
-    drift_control: DriftControl = DriftControl()
-    sampling: Sampling = Sampling()
     sensors: Sensing = Sensing()
     ctd: Ctd = Ctd()
     waves: Waves = Waves()
@@ -83,11 +70,6 @@ class MissionFile(Table):
             raise ValueError(
                 f"sensors.first_fix_s = {self.sensors.first_fix_s:g}: must be less than surface.session_s = "
                 f"{self.surface.session_s:g}, or no position is ever found"
-            )
-        if self.surface.longest_s < self.surface.session_s:
-            raise ValueError(
-                f"surface.longest_s = {self.surface.longest_s:g}: must not be less than surface.session_s = "
-                f"{self.surface.session_s:g}"
             )
         self._check_steps()
         return self

@@ -15,17 +15,14 @@ import pytest
 from stommel.bench import load_map, read_engine_log, read_pressure_test
 from stommel.bench.column_map import EngineLogMap
 from stommel.control.flight_table_file import read_flight_table
-from stommel.design.hull import load_materials
 from stommel.dynamics.state_files import read_states
 from stommel.machinery.engine import load_engine
+from stommel.machinery.hull import load_materials
 from stommel.mission.loading import load_plan
 from stommel.seawater import read_stratification
 from stommel.simulation.scenario.loading import load_mission
 from stommel.studies.study import load_study
 from stommel.vehicle import builtin_text, load_vehicle
-from tests.cli.conftest import stommel
-
-__all__ = ["stommel"]
 
 COLUMNS = """
 [columns]
@@ -108,7 +105,7 @@ TOML_KINDS: dict[str, tuple[Callable[[str], Any], Callable[[], str]]] = {
     "flight table": (lambda path: str(read_flight_table(path)), lambda: FLIGHT_TABLE),
     "study": (lambda path: load_study(path).file, lambda: STUDY),
     "engine": (load_engine, lambda: shipped("stommel.machinery.engine", "examples/high-pressure.toml")),
-    "materials": (lambda path: load_materials(Path(path)), lambda: shipped("stommel.design.hull", "materials.toml")),
+    "materials": (lambda path: load_materials(Path(path)), lambda: shipped("stommel.machinery.hull", "materials.toml")),
     "column map": (_map, lambda: COLUMNS),
     "pressure test": (_described, lambda: 'title = "a test"\n[limits]\nlargest_loss_mpa = 0.2\n'),
 }

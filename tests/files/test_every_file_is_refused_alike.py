@@ -13,8 +13,8 @@ import pytest
 
 from stommel.errors import FileError, StommelError
 from stommel.ocean import Ocean
-from tests.cli.conftest import Command
 from tests.files.conftest import LARGE, LOADERS, NOT_USABLE, TABLES, TOML_KINDS, UNREADABLE, Refused, in_time
+from tests.support.command import Command
 
 
 @pytest.fixture(autouse=True)

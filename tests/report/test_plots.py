@@ -3,8 +3,6 @@
 import dataclasses
 import logging
 import struct
-import subprocess
-import sys
 import xml.etree.ElementTree as ET
 from math import degrees
 from pathlib import Path
@@ -26,6 +24,7 @@ from stommel.report.plots import (
     vehicle_figure,
 )
 from stommel.vehicle import builtin_names, builtin_text, load_vehicle, vehicle_from_text
+from tests.support.python import run_python
 
 NAMES = pytest.mark.parametrize("name", builtin_names())
 
@@ -256,7 +255,7 @@ def test_pyplot_is_never_loaded() -> None:
         "svg_text(root_locus_figure(stommel.root_locus(zju, 'wing_position', 0, 0.2, points=3))); "
         "sys.exit('matplotlib.pyplot' in sys.modules)"
     )
-    subprocess.run([sys.executable, "-c", code], check=True)
+    run_python("-c", code)
 
 
 def test_an_unwritable_folder_is_reported_and_nothing_is_left(zju, tmp_path):

@@ -12,11 +12,11 @@ from stommel.dynamics.packing import pack
 from stommel.errors import StommelError
 from stommel.simulation.scenario.loading import mission_from
 from stommel.vehicle import FULL, load_vehicle
-from tests.cli.conftest import Command, stommel
-from tests.ocean.conftest import Writer, arctic20, sea_file
+from tests.ocean.conftest import Writer, sea_file
 from tests.simulation.conftest import Document, flown, made, mission_document
+from tests.support.command import Command
 
-__all__ = ["arctic20", "sea_file", "stommel"]
+__all__ = ["sea_file"]
 
 DIVES: Document = {"depth_m": 100.0, "pitch_deg": 35.0, "speed_m_s": 0.35}
 

@@ -16,9 +16,7 @@ from pydantic import BaseModel
 from stommel.simulation.scenario.loading import load_mission, mission_from
 from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.scenario_file import ScenarioFile
-from tests.cli.conftest import Command, stommel
-
-__all__ = ["stommel"]
+from tests.support.command import Command
 
 DOCS = Path(__file__).parents[2] / "docs"
 GUIDE = (DOCS / "guide" / "missions.md").read_text(encoding="utf-8")

@@ -34,4 +34,4 @@ def mission_path(name: str) -> Path:
 
 
 def _folder() -> Path:
-    return Path(str(files("stommel.simulation"))) / "missions"
+    return Path(str(files("stommel.simulation.scenario"))) / "missions"

@@ -1,4 +1,4 @@
-"""Close the pitch loop of the nonlinear vehicle with a controller from python-control, around the vehicle's own software.
+"""Close the pitch loop of the nonlinear vehicle with a controller from python-control.
 
 The vehicle is told to dive at 35 deg. Our controller wants 25 deg instead, and gets it by feedback alone: an integrator
 on the moving mass, designed on the linear model and checked in the z plane before it flies.
@@ -36,6 +36,7 @@ class OuterLoop:
         self.state, self.correction, self.next = np.zeros((1, 1)), 0.0, 0.0
 
     def __call__(self, memory, orders, readings, t):
+        """Decide once; the signature is that of `stommel.control.decision.decide`."""
         commands = decide(memory, orders, readings, t)
         if memory.phase != DESCENT or t - memory.since < PERIOD:
             return commands

@@ -33,3 +33,9 @@ def unit_of(key: str) -> str | None:
     """Unit that the name of a key ends with, or None; an index at the end of a dotted key counts for its list."""
     name = next((part for part in reversed(key.split(".")) if not part.isdigit()), key)
     return next((UNITS[ending] for ending in _LONGEST_FIRST if f"_{name}".endswith(f"_{ending}")), None)
+
+
+def counted(count: str | float, one: str, many: str = "") -> str:
+    """A number with its noun: 1 day, 2 days, 11.7 days."""
+    text = count if isinstance(count, str) else f"{count:.12g}"
+    return f"{text} {one if text == '1' else many or f'{one}s'}"

@@ -1,14 +1,12 @@
 """`stommel bench` as its users run it: JSON, tables of 80 columns, plots, refusals, and the guide's examples."""
 
-import shlex
 from pathlib import Path
 
 import pytest
 
 from stommel.bench import MARKER
-from tests.cli.conftest import Command, Outcome
-
-GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "bench.md"
+from tests.support.command import Command, Outcome
+from tests.support.pages import commands, guide
 
 
 @pytest.fixture
@@ -90,7 +88,7 @@ def test_a_failed_pressure_test_is_a_result(stommel: Command, tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("analyse", "nowhere.csv"), ["nowhere.csv", "no column map"]),
+        (("analyse", "nowhere.csv"), ["nowhere.csv: cannot be read: No such file"]),
         (("analyse", "bench.csv", "--column", "pressure"), ["--column 'pressure'", "QUANTITY=COLUMN:UNIT"]),
         (("analyse", "bench.csv", "--column", "depth=d:m"), ["depth=d:m", "pressure, motor_speed"]),
         (("analyse", "bench.csv", "--column", "pressure=pressure_mpa:atm"), ["'atm'", "unknown unit"]),
@@ -129,8 +127,8 @@ def test_nothing_half_written_is_left(stommel: Command, tmp_path: Path) -> None:
 
 
 def test_the_guide_s_examples_run(stommel: Command) -> None:
-    lines = [line for line in GUIDE.read_text(encoding="utf-8").splitlines() if line.startswith("stommel ")]
-    assert len(lines) >= 5
-    for line in lines:
-        found = stommel(*shlex.split(line)[1:])
-        assert found.status == 0, (line, found.err)
+    calls = commands(guide("bench"))
+    assert len(calls) >= 5
+    for arguments in calls:
+        found = stommel(*arguments)
+        assert found.status == 0, (arguments, found.err)

@@ -1,13 +1,13 @@
 """`stommel budget` as its users run it; bad parts are named; the example of the guide runs."""
 
-import re
 from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Command
+from tests.support.command import Command
+from tests.support.pages import commands, guide
 
-GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "budget.md"
+GUIDE = guide("budget")
 
 
 def test_json_sums_to_60_kg(stommel: Command) -> None:
@@ -109,7 +109,7 @@ def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[st
 
 
 def test_the_guide_runs(stommel: Command) -> None:
-    commands = re.findall(r"^stommel (budget .*)$", GUIDE.read_text(encoding="utf-8"), re.MULTILINE)
-    assert commands
-    for command in commands:
-        assert stommel(*command.split()).status == 0, command
+    calls = commands(GUIDE, "budget")
+    assert calls
+    for arguments in calls:
+        assert stommel(*arguments).status == 0, arguments

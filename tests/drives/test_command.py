@@ -1,13 +1,13 @@
 """`stommel drives` as its users run it; the example of the guide runs."""
 
-import re
 from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Command
+from tests.support.command import Command
+from tests.support.pages import commands, guide
 
-GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "drives.md"
+GUIDE = guide("drives")
 
 
 def test_json_answers_the_issue(stommel: Command) -> None:
@@ -85,7 +85,7 @@ def test_bad_tables_name_key_value_and_range(
 
 
 def test_the_guide_runs(stommel: Command) -> None:
-    commands = re.findall(r"^stommel (drives .*)$", GUIDE.read_text(encoding="utf-8"), re.MULTILINE)
-    assert commands
-    for command in commands:
-        assert stommel(*command.split()).status == 0, command
+    calls = commands(GUIDE, "drives")
+    assert calls
+    for arguments in calls:
+        assert stommel(*arguments).status == 0, arguments

@@ -6,9 +6,7 @@ from pathlib import Path
 import pytest
 
 from stommel.vehicle import builtin_text
-from tests.cli.conftest import Command, Outcome, stommel
-
-__all__ = ["stommel"]
+from tests.support.command import Command, Outcome
 
 KEYS = {
     "endurance_days",

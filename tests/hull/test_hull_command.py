@@ -1,12 +1,12 @@
 """`stommel hull` through the front door."""
 
-import re
 from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Command
 from tests.cli.test_bad_input import refused
+from tests.support.command import Command
+from tests.support.pages import commands, guide
 
 KEYS = {
     "name",
@@ -23,7 +23,7 @@ KEYS = {
     "rank",
     "reasons",
 }
-GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "hull.md"
+GUIDE = guide("hull")
 
 
 def test_json(stommel: Command) -> None:
@@ -122,10 +122,7 @@ def test_refused_vehicle_files(stommel: Command, tmp_path: Path, was: str, becom
 
 
 def test_commands_of_the_guide_run(stommel: Command) -> None:
-    blocks = re.findall(r"```console\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S)
-    commands = [line.removeprefix("$ ") for block in blocks for line in block.splitlines() if line.startswith("$ ")]
-    assert len(commands) >= 3
-    for command in commands:
-        program, *arguments = command.split()
-        assert program == "stommel"
-        assert stommel(*arguments).status == 0, command
+    calls = commands(GUIDE)
+    assert len(calls) >= 3
+    for arguments in calls:
+        assert stommel(*arguments).status == 0, arguments

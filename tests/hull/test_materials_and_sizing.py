@@ -7,12 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stommel.design.hull import MaterialError, find_material, hull_study, load_materials
-from stommel.design.hull.buckling import RingSection
+from stommel.design.hull import hull_study
 from stommel.design.hull.ranking import ranked
 from stommel.design.hull.requirement import requirement
 from stommel.design.hull.sizing import size
 from stommel.errors import FileError
+from stommel.machinery.hull import MaterialError, find_material, load_materials
+from stommel.machinery.hull.buckling import RingSection
 from stommel.vehicle import load_vehicle, vehicle_from_text
 from stommel.vehicle.loading import builtin_text
 

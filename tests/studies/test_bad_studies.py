@@ -2,12 +2,12 @@
 
 import resource
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from tests.studies.conftest import UNIFORM, Write, refused, run
+from tests.support.command import PROGRAM
 
 SWEEP = 'kind = "sweep"\n[[parameters]]\n'
 
@@ -98,9 +98,8 @@ def test_unknown_output_is_found_with_the_first_run(folder: Path, write: Write) 
 
 def limited(folder: Path, most_bytes: int, *arguments: object) -> str:
     """One line of a study whose files may not grow beyond a size: the same calls fail as on a full disk."""
-    program = Path(sys.executable).with_name("stommel")
     done = subprocess.run(
-        [program, "study", *map(str, arguments)],
+        [PROGRAM, "study", *map(str, arguments)],
         cwd=folder,
         capture_output=True,
         text=True,

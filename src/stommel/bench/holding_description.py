@@ -1,8 +1,8 @@
 """Description of a hull pressure test: columns, limits and the compliance of what is under pressure (TOML)."""
 
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from stommel.bench.column_map import MapTable, NotNegativeNumber, PositiveNumber
 from stommel.bench.quantities import QUANTITIES
@@ -95,7 +95,7 @@ class HoldingDescription(MapTable):
 
     format: Literal[1] = 1
     title: str = "Hull pressure test"
-    delimiter: str = ","
+    delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
     columns: HoldingColumns = HoldingColumns()
     limits: HoldingLimits = HoldingLimits()
     chamber: Chamber | None = None

@@ -50,8 +50,9 @@ def budget(
     if apply is not None:
         from stommel.design.budget import applied_text
         from stommel.files.whole import write_whole
+        from stommel.vehicle import vehicle_text
 
-        write_whole(apply, applied_text(study, _text(vehicle)))
+        write_whole(apply, applied_text(study, vehicle_text(vehicle)))
         written.append(apply)
     if plot is not None:
         from stommel.design.budget.figure import budget_figure
@@ -73,12 +74,6 @@ def _density(text: str | None) -> float | tuple[float, float] | None:
     if len(values) == 2:
         return values[0], values[1]
     raise StommelError(f"--density = {text!r}: must be a number or a range like 1010:1027, in kg/m3")
-
-
-def _text(vehicle: str) -> str:
-    from stommel.vehicle import builtin_names, builtin_text
-
-    return builtin_text(vehicle) if vehicle in builtin_names() else Path(vehicle).read_text(encoding="utf-8")
 
 
 def _show(study: "BudgetStudy") -> None:

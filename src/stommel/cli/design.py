@@ -46,7 +46,7 @@ def design(
     study = design_study(glider, physics=physics_of(physics), progress=_progress(as_json))
     written = []
     if path is not None:
-        from stommel.design.report import write_report
+        from stommel.report import write_report
 
         write_report(study, path)
         written.append(path)

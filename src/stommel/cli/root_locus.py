@@ -46,8 +46,8 @@ def root_locus(
     )
     written = []
     if plot is not None:
-        from stommel.design.plots import root_locus_figure
         from stommel.figures.saving import save_figure_as
+        from stommel.report.plots import root_locus_figure
 
         written.append(save_figure_as(root_locus_figure(locus), plot))
     finish(locus, written, as_json, lambda locus: _show(glider.name, locus))

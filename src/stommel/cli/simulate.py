@@ -19,8 +19,8 @@ from stommel.files.units import counted
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn
 
-    from stommel.planning.mission import Mission
     from stommel.simulation.flight import Flown
+    from stommel.simulation.scenario.mission import Mission
 
 _FIRST_DAYS = 0.02
 """Flown once before the time is taken, so that compiling and loading are not in it."""
@@ -83,8 +83,8 @@ def _list(as_json: bool) -> None:
 
 
 def _with_seed(mission: "Mission", seed: int) -> "Mission":
-    plan = mission.plan.model_copy(update={"seed": seed})
-    return replace(mission, plan=plan, document=dict(mission.document) | {"seed": seed})
+    scenario = mission.scenario.model_copy(update={"seed": seed})
+    return replace(mission, scenario=scenario, document=dict(mission.document) | {"seed": seed})
 
 
 @contextmanager
@@ -105,8 +105,8 @@ def _fly(mission: "Mission", timed: bool) -> tuple["Flown", float | None]:
 
     with _progress(mission) as progress:
         if timed:
-            first = min(_FIRST_DAYS, mission.plan.duration_days)
-            fly_mission(replace(mission, plan=mission.plan.model_copy(update={"duration_days": first})))
+            first = min(_FIRST_DAYS, mission.scenario.duration_days)
+            fly_mission(replace(mission, scenario=mission.scenario.model_copy(update={"duration_days": first})))
         began = perf_counter()
         flown = fly_mission(mission, progress=progress)
         return flown, perf_counter() - began if timed else None
@@ -121,7 +121,7 @@ def _progress(mission: "Mission") -> Iterator[Callable[[float], None]]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
 
-    plan = mission.plan
+    plan = mission.scenario
     console = Console(stderr=True)
     columns = (TextColumn("{task.fields[date]}"), BarColumn(bar_width=None), TextColumn("{task.percentage:>3.0f} %"),
                _speed_column())  # fmt: skip

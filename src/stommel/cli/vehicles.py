@@ -39,12 +39,11 @@ def show(
 ) -> None:
     """Show every number of a vehicle with its source, assumptions marked."""
     from stommel.files.units import unit_of
-    from stommel.vehicle import builtin_names, builtin_text, stated_numbers
+    from stommel.vehicle import stated_numbers, vehicle_text
 
     glider = load(vehicle)
     if toml:
-        text = builtin_text(vehicle) if vehicle in builtin_names() else Path(vehicle).read_text(encoding="utf-8")
-        typer.echo(text, nl=False)
+        typer.echo(vehicle_text(vehicle), nl=False)
         return
     numbers = [
         {"key": key, "value": value, "unit": unit_of(key), "kind": origin.kind, "text": origin.text}

@@ -116,7 +116,7 @@ class Ocean:
         UnknownOceanError
             A policy, name or option is unknown, or does not fit.
         """
-        from stommel.ocean.reading.opening import open_ocean  # noqa: PLC0415 - xarray takes time to load
+        from stommel.ocean.opening import open_ocean  # noqa: PLC0415 - xarray takes time to load
 
         policy(outside)  # a wrong word is said before a large file is read
         at_times = policy(outside if outside_time is None else outside_time, "outside_time")

@@ -1,9 +1,9 @@
 """Which ocean the options choose, read from text."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from stommel.errors import StommelError
+from stommel.files.opening import names_file
 
 if TYPE_CHECKING:
     from stommel.ocean import Ocean
@@ -40,7 +40,7 @@ def open_ocean(given: list[str], choice: dict[str, Any], policies: dict[str, Any
 
 
 def _looks_like_a_file(name: str) -> bool:
-    return Path(name).exists() or bool(Path(name).suffix) or any(mark in name for mark in "*?[/\\")
+    return names_file(name) or any(mark in name for mark in "*?[")
 
 
 def pairs(texts: list[str] | None, option: str) -> dict[str, str]:

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from math import ceil, isinf
 from typing import Any, Literal
 
-from stommel.design.hull import buckling, elasticity, end_caps, paper_formulas
-from stommel.design.hull.materials import Material
 from stommel.design.hull.requirement import HullError, Requirement
-from stommel.design.hull.tube import Tube
 from stommel.design.named_warning import NamedWarning
+from stommel.machinery.hull import buckling, elasticity, end_caps, paper_formulas
+from stommel.machinery.hull.materials import Material
+from stommel.machinery.hull.tube import Tube
 
 STEP_MM = 0.1
 """Walls are rounded up to this, as in Table 4."""

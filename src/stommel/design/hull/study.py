@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from stommel.design.hull.comparison import ComparedQuantity, PublishedTable, published_table
-from stommel.design.hull.materials import Material, MaterialError, find_material, load_materials
 from stommel.design.hull.ranking import Ranked, ranked
 from stommel.design.hull.requirement import HullError, Requirement, requirement
 from stommel.design.hull.sizing import SizedHull, size
 from stommel.design.named_warning import NamedWarning
+from stommel.machinery.hull.materials import Material, MaterialError, find_material, load_materials
 from stommel.vehicle import Vehicle
 
 _ROUGHLY = 0.1

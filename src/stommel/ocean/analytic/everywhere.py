@@ -9,8 +9,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from stommel.files.sentences import sentence
 from stommel.ocean.errors import UnknownOceanError
+from stommel.ocean.kernel.building import Frame, Slot, ocean_grid
 from stommel.ocean.kernel.grid import UNBOUNDED_DEPTH, OceanGrid
-from stommel.ocean.reading.build import Frame, Slot, ocean_grid
 from stommel.seawater import properties
 from stommel.seawater.stratification import Stratification, south_china_sea, two_layer
 

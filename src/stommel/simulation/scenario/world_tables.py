@@ -1,4 +1,4 @@
-"""The tables of a mission file on what is not the vehicle's choice: ocean, waves, errors of sensors, time steps."""
+"""The tables of a scenario file on what is not the vehicle's choice: ocean, waves, errors of sensors, time steps."""
 
 from typing import Annotated, Literal, Self
 
@@ -8,6 +8,14 @@ from stommel.files.fields import Finite, NotNegative, Positive, Table
 
 Share = Annotated[float, Field(strict=True, ge=0, le=1)]
 Triple = tuple[Finite, Finite, Finite]
+
+
+class Ballasting(Table):
+    """How the vehicle was trimmed before the mission."""
+
+    neutral_depth_m: NotNegative | None = None
+    """Depth at the start at which it is neutral with no ballast volume; if left out, it is neutral
+    in the middle of the densities it meets."""
 
 
 class Sensing(Table):

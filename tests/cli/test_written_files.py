@@ -45,6 +45,7 @@ WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
     "engine": (("engine", "zju", "--inflate-ml", "100", "--plot", "e.png"), ["e.png"]),
     "endurance": (("endurance", "zju", "--plot", "e.svg"), ["e.svg"]),
     "budget": (("budget", "zju", "--apply", "mine.toml", "--plot", "b.PNG"), ["mine.toml", "b.PNG"]),
+    "flight-table": (("flight-table", "zju", "--output", "f.toml"), ["f.toml"]),
     "simulate": (
         ("simulate", "mission.toml", "--output", "m.nc", "--plots", "all"),
         ["m.nc", *both("all", *PICTURES), "all/mission.html"],
@@ -60,7 +61,13 @@ WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
 """Every verb that can write, and the files that it then writes."""
 
 SAVE = {"--plot": (".png", ".svg", ".pdf"), "--plots": (), "--apply": (".toml",), "FILE": (".toml",)}
-SAVE_AS = {"design": (".html",), "simulate": (".nc",), "study": (".nc", ".zarr"), "bench generate": (".csv",)}
+SAVE_AS = {
+    "design": (".html",),
+    "simulate": (".nc",),
+    "study": (".nc", ".zarr"),
+    "bench generate": (".csv",),
+    "flight-table": (".toml",),
+}
 """What the names of written files end with, by option; of --output by verb."""
 
 

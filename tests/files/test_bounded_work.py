@@ -3,7 +3,7 @@
 import time
 
 import pytest
-from stommel.design.hull.materials import materials_from_text
+from stommel.machinery.hull.materials import materials_from_text
 
 from stommel.errors import FileError
 from stommel.files.opening import TOML_MIB

@@ -21,14 +21,12 @@ from sphinx.util import logging
 
 import stommel
 from stommel.files.fields import Table
-from stommel.files.sentences import allowed_range, unit_of
+from stommel.files.sentences import allowed_range
+from stommel.files.units import unit_of
 from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle.schema import VehicleFile
 
 logger = logging.getLogger(__name__)
-
-UNITS = {"coupling_kg_m": "kg m"}
-"""Units that the key's name alone would give wrongly."""
 
 
 def attribute_docstrings(model: type[BaseModel]) -> dict[str, str]:
@@ -136,7 +134,7 @@ def file_tables(model: type[BaseModel], meanings: dict[str, str], what: str) -> 
                 logger.warning("docs/guide/meanings.toml says nothing about the key %s of a %s", dotted, what)
             allowed = [_kind(field), allowed_range((key,), table)]
             words = ", ".join(word for word in allowed if word) or "any number"
-            unit = (UNITS.get(key) or unit_of(key) or "").replace("2", "²").replace("3", "³")
+            unit = (unit_of(key) or "").replace("2", "²").replace("3", "³")
             yield f"| `{key}` | {unit} | {meaning} | {words} | {_default(field)} |\n"
     for dotted in sorted(unused):
         logger.warning("docs/guide/meanings.toml describes %s, which no %s has", dotted, what)

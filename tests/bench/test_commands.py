@@ -24,19 +24,19 @@ def readable(found: Outcome) -> None:
 
 
 def test_analyse(stommel: Command, log: Path, tmp_path: Path) -> None:
-    found = stommel("bench", "analyse", log, "--plot", "figures/bench", "--json").json
+    found = stommel("bench", "analyse", log, "--plots", "figures/bench", "--json").json
     assert found["generated"] is True
     assert found["origin"] == MARKER
     assert len(found["runs"]) == 24
     assert found["choice"]["motor_speed_rpm"] == pytest.approx(7000.0, rel=0.002)
-    assert len(found["plots"]) == 4
-    assert all((tmp_path / path).stat().st_size > 5000 for path in found["plots"])
+    assert len(found["written"]) == 4
+    assert all((tmp_path / path).stat().st_size > 5000 for path in found["written"])
     assert MARKER in " ".join(stommel("bench", "analyse", log).out.split())
     readable(stommel("bench", "analyse", log))
 
 
 def test_fit(stommel: Command, log: Path, tmp_path: Path) -> None:
-    found = stommel("bench", "fit", log, "--plot", "fit", "--json").json
+    found = stommel("bench", "fit", log, "--plots", "fit", "--json").json
     assert found["generated"] is True
     assert len(found["parameters"]) == 5
     for one in found["parameters"]:
@@ -44,7 +44,7 @@ def test_fit(stommel: Command, log: Path, tmp_path: Path) -> None:
         assert one["true"] is not None
         assert one["true_inside"] is True
     assert len(found["correlation"]) == 5
-    assert all((tmp_path / path).is_file() for path in found["plots"])
+    assert all((tmp_path / path).is_file() for path in found["written"])
     readable(stommel("bench", "fit", log))
 
 
@@ -70,10 +70,10 @@ def test_speed(stommel: Command) -> None:
 
 
 def test_pressure(stommel: Command, tmp_path: Path) -> None:
-    found = stommel("bench", "pressure", "fan2013-table5", "--plot", "table5", "--json").json
+    found = stommel("bench", "pressure", "fan2013-table5", "--plot", "table5.pdf", "--json").json
     assert found["passed"] is True
     assert [hold["loss_mpa"] for hold in found["holds"]] == pytest.approx([0.067, 0.075, 0.073, 0.042, 0.046, 0.025])
-    assert all((tmp_path / path).is_file() for path in found["plots"])
+    assert all((tmp_path / path).is_file() for path in found["written"])
     readable(stommel("bench", "pressure", "fan2013-table5"))
 
 

@@ -126,8 +126,8 @@ def test_unwritable_output_leaves_nothing(stommel: Command, tmp_path: Path) -> N
             0.2,
             "--points",
             2,
-            "--output",
-            "file/locus",
+            "--plot",
+            "file/locus.png",
         ),
         ("vehicle", "new", "file/mine.toml"),
     ):

@@ -14,9 +14,11 @@ import pytest
 
 from stommel.bench import load_map, read_engine_log, read_pressure_test
 from stommel.bench.column_map import EngineLogMap
+from stommel.control.flight_table_file import read_flight_table
 from stommel.dynamics.state_files import read_states
 from stommel.machinery.engine import load_engine
 from stommel.machinery.hull import load_materials
+from stommel.mission.loading import load_plan
 from stommel.seawater import read_stratification
 from stommel.simulation.scenario.loading import load_mission
 from stommel.studies.study import load_study
@@ -39,6 +41,33 @@ kind = "sweep"
 [[parameters]]
 key = "mission.seed"
 values = [1, 2]
+"""
+
+
+PLAN = """
+name = "to the buoy"
+waypoints = [{ latitude_deg = 18.5, longitude_deg = 116.5 }]
+dives = { depth_m = 80, pitch_deg = 30, speed_m_s = 0.3 }
+"""
+WAY = """
+moving_mass_mm = [[1, 2], [3, 4]]
+angle_of_attack_deg = [[1, 2], [3, 4]]
+speed_m_s = [[0.1, 0.2], [0.3, 0.4]]
+turn_pole_per_s = [[-1, -2], [-3, -4]]
+turn_drive_per_s2 = [[1, 2], [3, 4]]
+"""
+FLIGHT_TABLE = f"""
+format = 1
+kind = "flight table"
+vehicle = "mine"
+vehicle_sha256 = "{"0" * 64}"
+physics = "full"
+stommel = "0"
+density_kg_m3 = 1025
+drag_per_mass_per_m = 0.1
+pitch_deg = [20, 30]
+ballast_ml = [100, 200]
+[dive]{WAY}[climb]{WAY}
 """
 
 
@@ -69,9 +98,11 @@ def _log(path: str) -> Any:
 TOML_KINDS: dict[str, tuple[Callable[[str], Any], Callable[[], str]]] = {
     "vehicle": (lambda path: load_vehicle(path).document, lambda: builtin_text("zju")),
     "mission": (
-        lambda path: load_mission(path).plan,
+        lambda path: load_mission(path).scenario,
         lambda: shipped("stommel.simulation.scenario", "missions/pool_trial.toml"),
     ),
+    "plan": (load_plan, lambda: PLAN),
+    "flight table": (lambda path: str(read_flight_table(path)), lambda: FLIGHT_TABLE),
     "study": (lambda path: load_study(path).file, lambda: STUDY),
     "engine": (load_engine, lambda: shipped("stommel.machinery.engine", "examples/high-pressure.toml")),
     "materials": (lambda path: load_materials(Path(path)), lambda: shipped("stommel.machinery.hull", "materials.toml")),

@@ -3,11 +3,11 @@
 import time
 
 import pytest
-from stommel.machinery.hull.materials import materials_from_text
 
 from stommel.errors import FileError
 from stommel.files.opening import TOML_MIB
 from stommel.files.toml_reader import parse_toml
+from stommel.machinery.hull.materials import materials_from_text
 from stommel.vehicle import vehicle_from_text
 
 SIZE = TOML_MIB << 20

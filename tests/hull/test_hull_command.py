@@ -55,7 +55,7 @@ def test_deeper_needs_more(stommel: Command) -> None:
 def test_thin_wall_is_named_in_terminal_and_json(stommel: Command) -> None:
     shown = stommel("hull", "zju", "--material", "TC4", "--wall", 3.5)
     assert shown.status == 0
-    assert "WARNING wall too thin" in shown.out
+    assert "warning: wall too thin: " in shown.out
     found = stommel("hull", "zju", "--material", "TC4", "--wall", 3.5, "--json").json
     assert "wall too thin" in {warning["name"] for warning in found["warnings"]}
     assert "wall too thin" in {warning["name"] for warning in found["materials"][0]["warnings"]}
@@ -77,7 +77,7 @@ def test_plot_and_own_materials(stommel: Command, tmp_path: Path) -> None:
     options = ("--materials", "mine.toml", "--material", "pmma", "--depth", 50, "--plot", "hull.png", "--json")
     found = stommel("hull", "zju", *options).json
     assert [row["name"] for row in found["materials"]] == ["PMMA"]
-    assert found["plots"] == ["hull.png", "hull.svg"]
+    assert found["written"] == ["hull.png"]
     assert (tmp_path / "hull.png").read_bytes().startswith(b"\x89PNG")
 
 

@@ -111,7 +111,7 @@ def test_ranking_follows_its_marks() -> None:
 def test_own_hull_thinner_than_its_criterion_is_named() -> None:
     text = builtin_text("zju").replace("wall_mm = { value = 4.2", "wall_mm = { value = 3")
     study = hull_study(vehicle_from_text(text, "zju.toml"))
-    named = {warning.name: warning.text for warning in study.warnings}
+    named = {warning.name: warning.message for warning in study.warnings}
     assert "3 mm is less than the 4.18 mm" in named["wall too thin"]
     assert "classical criterion not met" in named
 

@@ -133,6 +133,6 @@ def test_full_disk_leaves_nothing_half_written_and_the_study_goes_on(folder: Pat
 
 def test_unwritable_folder(folder: Path, write: Write) -> None:
     study = write('kind = "monte_carlo"\nruns = 3\n' + UNIFORM)
-    assert "hop.toml/r.nc.runs: cannot be written: Not a directory" in refused(
+    assert "--output hop.toml/r.nc: cannot be written: Not a directory" in refused(
         folder, study, "--output", "hop.toml/r.nc"
     )

@@ -199,6 +199,19 @@ def test_no_value_crashes_the_loader(data: st.DataObject) -> None:
         zju.with_value(key, value)  # type: ignore[arg-type]  # wrong on purpose
 
 
+@pytest.mark.parametrize(
+    "key", ["", ".", "mass", "rigid_body", "rigid_body.centre_of_mass_m", "rigid_body.centre_of_mass_m.3",
+            "rigid_body.centre_of_mass_m.-1", "rigid_body.centre_of_mass_m.²", "rigid_body.centre_of_mass_m.x",
+            "rigid_body.mass_kg.0", "name", f"rigid_body.centre_of_mass_m.{'9' * 5000}"],
+)  # fmt: skip
+def test_keys_of_no_number(key: str) -> None:
+    zju = load_vehicle("zju")
+    for ask in (zju.value, lambda key: zju.with_value(key, 1.0)):
+        with pytest.raises(FileError, match="no number of ZJU glider has this key") as caught:
+            ask(key)
+        assert len(str(caught.value)) < 600
+
+
 def test_unknown_lateral_plane_is_listed() -> None:
     assert next(load_vehicle("rogue").description.unknown_lateral()) == "added_inertia.sway_kg"
     for name in ("zju", "slocum", "seawing"):

@@ -103,17 +103,17 @@ def _holds(table: Delimited, described: HoldingDescription) -> tuple[Hold, ...]:
     for k, line in enumerate(table.lines):
         begin = begins[k]
         if holds:
-            begin = _after(table, columns.begin, line, holds[-1], begins[k], limits.longest_pause_h)
+            begin = _after(table, columns.begin, line, holds[-1], begins[k], limits.longest_pause_hours)
         duration = (ends[k] - begins[k]) % _DAY
         written = f"{begin_cells[k]} to {end_cells[k]}"
         if duration == 0.0:
             raise refuse(table.file, columns.end, f"{written}: the hold lasts no time, or a whole day", line)
-        if duration > limits.longest_hold_h * 3600:
+        if duration > limits.longest_hold_hours * 3600:
             raise refuse(
                 table.file,
                 columns.end,
                 f"{written}: ends before it begins, or lasts {duration / 3600:.4g} h across midnight; at most "
-                f"{limits.longest_hold_h:g} h are allowed (limits.longest_hold_h)",
+                f"{limits.longest_hold_hours:g} h are allowed (limits.longest_hold_hours)",
                 line,
             )
         hold = Hold(names[k], begin, begin + duration, first[k], last[k])
@@ -129,15 +129,16 @@ def _holds(table: Delimited, described: HoldingDescription) -> tuple[Hold, ...]:
     return tuple(holds)
 
 
-def _after(table: Delimited, column: str, line: int, before: Hold, clock: float, longest_pause_h: float) -> float:
+def _after(table: Delimited, column: str, line: int, before: Hold, clock: float, longest_pause_hours: float) -> float:
     """Time of a clock reading after the hold before, the next day if need be."""
     pause = (clock - before.end) % _DAY
-    if pause > longest_pause_h * 3600:
+    if pause > longest_pause_hours * 3600:
         raise refuse(
             table.file,
             column,
             f"{_clock(clock)} comes before the end of hold {before.name} at {_clock(before.end)}: the holds overlap "
-            f"or are out of order (or {pause / 3600:.4g} h lie between; limits.longest_pause_h = {longest_pause_h:g})",
+            f"or are out of order (or {pause / 3600:.4g} h lie between; "
+            f"limits.longest_pause_hours = {longest_pause_hours:g})",
             line,
         )
     return before.end + pause

@@ -44,9 +44,9 @@ class HoldingLimits(MapTable):
     """Each hold loses less than this. Default: section 5.1.1 of the paper."""
     lowest_pressure_mpa: PositiveNumber = 2.0
     """Pressure stays above this. Default: section 5.1.1 of the paper."""
-    longest_hold_h: PositiveNumber = 12.0
+    longest_hold_hours: PositiveNumber = 12.0
     """A hold that would last longer, counted across midnight, is a slip of the pen."""
-    longest_pause_h: PositiveNumber = 12.0
+    longest_pause_hours: PositiveNumber = 12.0
     """The same between two holds."""
 
 

@@ -5,8 +5,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
-from stommel.cli.output import number, show_json, show_table
+from stommel.cli.output import number, show_table
+from stommel.cli.paths import file_parser
 
 if TYPE_CHECKING:
     from stommel.control.flight_table import FlightTable
@@ -18,7 +20,13 @@ _SHOWN = 5
 def flight_table(
     vehicle: VehicleArgument,
     output: Annotated[
-        Path | None, typer.Option("--output", metavar="FILE.toml", help="File to write, for the vehicle's software.")
+        Path | None,
+        typer.Option(
+            "--output",
+            metavar="FILE",
+            parser=file_parser("--output", ".toml"),
+            help="File to write for the vehicle's software, .toml.",
+        ),
     ] = None,
     physics: PhysicsOption = PhysicsChoice.full,
     as_json: JsonOption = False,
@@ -34,18 +42,15 @@ def flight_table(
 
     glider = load(vehicle)
     table = computed(glider, physics=physics_of(physics))
-    density = glider.description.water.density_kg_m3
-    header = FlightTableHeader(glider.name, fingerprint(glider), physics.value, density, __version__)
+    header = FlightTableHeader(
+        glider.name, fingerprint(glider), physics.value, glider.neutral_density_kg_m3, __version__
+    )
+    written = []
     if output is not None:
         write_flight_table(output, table, header)
-    written = [] if output is None else [str(output)]
-    rows = _rows(table)
-    if as_json:
-        show_json(vars(header) | {"flights": rows, "written": written})
-        return
-    _show(f"{glider.name}: flight table at {1e6 * table.V_b[-1]:.0f} ml", rows, table)
-    for path in written:
-        typer.echo(f"wrote {path}")
+        written.append(output)
+    answer = vars(header) | {"flights": _rows(table)}
+    finish(answer, written, as_json, lambda answer: _show(answer, table))
 
 
 def _rows(table: "FlightTable") -> list[dict[str, Any]]:
@@ -68,15 +73,15 @@ def _rows(table: "FlightTable") -> list[dict[str, Any]]:
     ]
 
 
-def _show(title: str, rows: list[dict[str, Any]], table: "FlightTable") -> None:
+def _show(answer: dict[str, Any], table: "FlightTable") -> None:
     """Show dives and climbs with the most ballast, at a few pitches."""
-    columns = len(table.V_b)
+    rows, columns = answer["flights"], len(table.V_b)
     fullest = rows[columns - 1 :: columns]
     pitches = len(table.theta)
     every = max(1, (pitches - 1) // (_SHOWN - 1))
     shown = fullest[:pitches:every][::-1] + fullest[pitches::every]
     show_table(
-        title,
+        f"{answer['vehicle']}: flight table, here with {1e6 * table.V_b[-1]:.0f} ml",
         ["pitch\ndeg", "speed\nm/s", "angle of attack\ndeg", "moving mass\nmm", "turn pole\n1/s", "turn drive\n1/s2"],
         [
             [

@@ -5,10 +5,10 @@ terminal, the report and scripts alike.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from functools import partial
 from math import degrees
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -56,6 +56,10 @@ class ComparedRow:
 
     trim: TrimRow
     published: PublishedRow | None
+
+    def as_row(self) -> dict[str, object]:
+        """Both in words with units."""
+        return {**self.trim.as_row(), "published": None if self.published is None else asdict(self.published)}
 
 
 @dataclass(frozen=True)
@@ -115,6 +119,22 @@ class DesignStudy:
     """Known slips of the sources, and limits of the model."""
     unanswered: tuple[tuple[str, str], ...]
     """Parts of this study that could not be answered, each with the reason."""
+
+    def as_json(self) -> dict[str, Any]:
+        """What `stommel design` answers, in words with units; its other parts have verbs of their own."""
+        return {
+            "vehicle": self.vehicle.name,
+            "specification": [asdict(row) for row in self.specification],
+            "tables": [{"title": table.title, "rows": [row.as_row() for row in table.rows]} for table in self.tables],
+            "envelope": None if self.envelope is None else [row.as_row() for row in self.envelope],
+            "ranges": None if self.ranges is None else self.ranges.as_row(),
+            **({"best_glide": None, "fastest": None} if self.best is None else self.best.as_row()),
+            **self.modes.as_row(),
+            "authority": self.authority.as_row(),
+            "turns": [flight.as_turn() for flight in self.turns],
+            "notes": list(self.notes),
+            "unanswered": dict(self.unanswered),
+        }
 
 
 DEFAULT_SPEED_M_S, DEFAULT_PITCH_DEG = 0.4, 35.0

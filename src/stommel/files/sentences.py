@@ -9,20 +9,9 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from stommel.errors import FileError, Problem
+from stommel.files.units import unit_of
 
 Model = TypeVar("Model", bound=BaseModel)
-
-_UNITS = {
-    "mm_per_deg": "mm/deg", "ml_s_m": "ml s/m", "ml_min": "ml/min", "conductivity_noise_s_m": "S/m",
-    "mn_m_a": "mN m/A", "n_m_s": "N m s", "n_s_m": "N s/m", "n_m": "N m", "g_cm2": "g cm2", "ml_r": "ml/r",
-    "ml_s_mpa": "ml/(s MPa)", "mpa_s_ml": "MPa s/ml", "mpa_s2_ml2": "MPa s2/ml2", "mpa_ml": "MPa/ml", "rpm": "r/min",
-    "ohm": "ohm", "a": "A", "n": "N", "coupling_kg_m": "kg m", "kg_m2": "kg m2", "kg_m3": "kg/m3", "kg_m": "kg/m",
-    "kg_s": "kg s", "m_s2": "m/s2", "m_s": "m/s", "mm_s": "mm/s", "ml_s": "ml/s", "deg_s": "deg/s", "per_pa": "1/Pa",
-    "per_k": "1/K", "days": "days", "kg": "kg", "mpa": "MPa", "mm": "mm", "ml": "ml", "deg": "degrees", "ah": "A h",
-    "v": "V", "c": "deg C", "m": "m", "w": "W", "j": "J", "s": "s", "mnm_a": "mN m/A", "mnm": "mN m", "ms": "ms",
-    "hours": "h", "minutes": "min", "h": "h", "km": "km", "wh": "W h", "kpa": "kPa", "pa": "Pa", "dbar": "dbar",
-    "l": "l",
-}  # fmt: skip
 
 _RANGES = {
     "greater_than": ("gt", "greater than {}"),
@@ -63,12 +52,6 @@ def validated(document: Any, model: type[Model], origin: str) -> Model:
         return model.model_validate(document)
     except ValidationError as error:
         raise FileError([Problem(origin, key, text) for key, text in sentences(error, model)]) from None
-
-
-def unit_of(key: str) -> str | None:
-    """Unit that the name of a key ends with, in words, or None."""
-    name = key.rsplit(".", 1)[-1]
-    return next((words for suffix, words in _UNITS.items() if f"_{name}".endswith(f"_{suffix}")), None)
 
 
 def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[str, str]]:

@@ -36,12 +36,12 @@ def ballasted(deployment: Deployment) -> Vehicle:
     if depth is None:
         volumes = neutral_volumes(deployment)
         middle = 0.5 * float(volumes.min() + volumes.max())
-        neutral_volume = vehicle.description.mass_kg / vehicle.description.water.density_kg_m3 + middle
-        return vehicle.with_value("water.density_kg_m3", vehicle.description.mass_kg / neutral_volume)
+        neutral_volume = vehicle.description.mass_kg / vehicle.neutral_density_kg_m3 + middle
+        return vehicle.trimmed_for(vehicle.description.mass_kg / neutral_volume)
     here = deployment.ocean.at(deployment.time, deployment.latitude_deg, deployment.longitude_deg, depth)
     record = pack(vehicle, deployment.physics)
     yielded = _yielded(record, here.pressure, here.temperature)
-    return vehicle.with_value("water.density_kg_m3", float(here.density * yielded))
+    return vehicle.trimmed_for(float(here.density * yielded))
 
 
 def _yielded(record: np.record, pressure: Any, temperature: Any) -> Any:

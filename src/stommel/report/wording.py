@@ -4,11 +4,12 @@ from collections.abc import Sequence
 from math import isinf
 
 from stommel.design.study import DesignStudy
-from stommel.files.sentences import unit_of
+from stommel.files.units import unit_of
 
 MINUS = "−"
 
-_SIGNS = {"m2": "m²", "m3": "m³", "s2": "s²", "degrees": "deg", "deg C": "°C"}
+_SIGNS = {"degrees": "deg", "deg C": "°C"}
+_POWERS = str.maketrans("23", "²³")
 
 
 def fixed(value: float, digits: int = 2) -> str:
@@ -43,12 +44,10 @@ def listed(value: object) -> str:
 
 def unit(key: str) -> str:
     """Unit of a number of the vehicle file; "1" where it has none."""
-    words = unit_of(key) or "1"
+    words = (unit_of(key) or "1").translate(_POWERS)
     for plain, sign in _SIGNS.items():
         words = words.replace(plain, sign)
-    if "_per_rad2_" in key:
-        return words + " per rad²"
-    return words + " per rad" if "_per_rad_" in key else words
+    return words
 
 
 def joined(words: Sequence[str]) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from stommel.files.provenance import numbers
+from stommel.files.sentences import dotted
 
 
 def number_at(document: Mapping[str, Any], key: str) -> float | None:
@@ -40,9 +41,10 @@ def no_such_number(document: Mapping[str, Any], key: str, name: str) -> str:
     """Say that the vehicle of this name has no number at `key`, and which are near."""
     known = [known for known, _ in numbers(document)]
     table = key.split(".", maxsplit=1)[0]
-    near = difflib.get_close_matches(key, known, 3, 0.6) or [name for name in known if name.split(".")[0] == table][:8]
+    around = [other for other in known if other.split(".")[0] == table]
+    near = difflib.get_close_matches(key, known, 3, 0.6) or around[:8]
     hint = f"; near it are {', '.join(near)}" if near else ""
-    return f"{key}: no number of {name} has this key{hint}; `stommel vehicle show` lists all {len(known)}"
+    return f"{dotted([key])}: no number of {name} has this key{hint}; `stommel vehicle show` lists all {len(known)}"
 
 
 def _changed(here: Any, parts: list[str], value: float) -> Any:

@@ -11,5 +11,5 @@ def fingerprint(vehicle: Vehicle) -> str:
 
     Comments, provenance, the order of the keys and whether a default is written down do not count.
     """
-    description = vehicle.description.model_dump(mode="json")
+    description = vehicle.description.model_dump(mode="json") | {"trimmed_for_kg_m3": vehicle.trimmed_for_kg_m3}
     return hashlib.sha256(json.dumps(description, sort_keys=True).encode()).hexdigest()

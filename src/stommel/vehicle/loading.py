@@ -38,11 +38,23 @@ class Vehicle:
     provenance: Mapping[str, Provenance] = field(repr=False)
     builtin: str | None = None
     """Name of the built-in vehicle that this is, unchanged."""
+    trimmed_for_kg_m3: float | None = None
+    """Density in which the vehicle was trimmed neutral before a mission; None: that of its file's water."""
 
     @property
     def name(self) -> str:
         """Name of the vehicle."""
         return self.description.name
+
+    @property
+    def neutral_density_kg_m3(self) -> float:
+        """Density of the water in which the vehicle, not compressed, is neutral with no ballast volume."""
+        file = self.description.water.density_kg_m3
+        return file if self.trimmed_for_kg_m3 is None else self.trimmed_for_kg_m3
+
+    def trimmed_for(self, density_kg_m3: float) -> "Vehicle":
+        """Return this vehicle with weights or foam added until it is neutral in water of a density; its file stays."""
+        return replace(self, trimmed_for_kg_m3=density_kg_m3)
 
     def provenance_of(self, key: str) -> Provenance:
         """Origin of the number at the dotted `key`."""
@@ -61,7 +73,9 @@ class Vehicle:
         self.value(key)  # refuses an unknown key
         document = with_number(self._filled(key), key, value)
         kept = {known: origin for known, origin in self.provenance.items() if known != key}  # not its source's any more
-        return Vehicle(_described(document, self.origin), self.origin, document, kept)
+        return replace(
+            self, description=_described(document, self.origin), document=document, provenance=kept, builtin=None
+        )
 
     def value(self, key: str) -> float:
         """Number at the dotted `key`, in the file's unit.

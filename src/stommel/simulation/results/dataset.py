@@ -139,6 +139,7 @@ def _provenance(flown: Flown) -> dict[str, Any]:
         "mission_file": mission.origin,
         "mission": json.dumps(mission.document, default=str, sort_keys=True),
         "vehicle": mission.vehicle.description.model_dump_json(),
+        "vehicle_neutral_density_kg_m3": mission.vehicle.neutral_density_kg_m3,
         "ocean": mission.ocean.name,
         "ocean_notes": json.dumps(dict(mission.ocean.notes), sort_keys=True),
         "distance_through_water_m": flown.distance_through_water,

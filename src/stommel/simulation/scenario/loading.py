@@ -87,7 +87,7 @@ def _ocean(scenario: ScenarioFile, folder: Path) -> Ocean:
         "outside_time": choice.outside_time,
         "climatology": choice.climatology,
         "blend_km": choice.blend_km,
-        "blend_h": choice.blend_h,
+        "blend_hours": choice.blend_hours,
         "folder": folder,
     }
     if choice.name is not None:

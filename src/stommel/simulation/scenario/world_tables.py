@@ -132,7 +132,7 @@ class OceanChoice(Table):
     """A second ocean, by name or file; without one the mean of the file is the climatology."""
     blend_km: NotNegative = 50.0
     """Way beyond the edge of the data on which its last values give way to the climatology."""
-    blend_h: NotNegative = 24.0
+    blend_hours: NotNegative = 24.0
     """Time beyond the data in which they do."""
     bounds_deg: tuple[Finite, Finite, Finite, Finite] | None = None
     """South, north, west and east of the region to read; all of the file if left out."""

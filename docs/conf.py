@@ -23,6 +23,9 @@ smartquotes = False  # they would turn --option into a dash
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
+autodoc_preserve_defaults = True
+maximum_signature_line_length = 100
+toc_object_entries_show_parents = "hide"
 autodoc_default_options = {"members": True, "exclude-members": "model_config"}
 add_module_names = False
 napoleon_google_docstring = False

@@ -7,17 +7,22 @@ import ast
 import inspect
 import os
 import pkgutil
+import re
 import subprocess
 import sys
 import tomllib
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Any, Literal, get_args, get_origin
 
+from docutils import nodes
 from pydantic import BaseModel, BeforeValidator
 from sphinx.application import Sphinx
 from sphinx.util import logging
+from sphinx.util.inspect import signature as sphinx_signature
+from sphinx.util.inspect import stringify_signature
 
 import stommel
 from stommel.files.fields import Table
@@ -140,12 +145,44 @@ def file_tables(model: type[BaseModel], meanings: dict[str, str], what: str) -> 
         logger.warning("docs/guide/meanings.toml describes %s, which no %s has", dotted, what)
 
 
+def _summary(thing: Any) -> str:
+    """First paragraph of a docstring, on one line; nothing for a constant, whose docstring is that of its type."""
+    text = inspect.getdoc(thing) if inspect.ismodule(thing) or hasattr(thing, "__qualname__") else ""
+    return " ".join((text or "").split("\n\n")[0].split()).replace("|", "\\|")
+
+
+def _homes(package: ModuleType) -> dict[str, str]:
+    """Where each name that a package passes on is described: module and name; the package's own names are left out."""
+    tree = ast.parse(inspect.getsource(package))
+    imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module]
+    named = {alias.name: f"{node.module}.{alias.name}" for node in imports for alias in node.names}
+    homes = {}
+    for name in getattr(package, "__all__", ()):
+        thing = getattr(package, name)
+        is_constant = not hasattr(thing, "__qualname__")
+        home = named.get(name, "") if is_constant else f"{thing.__module__}.{thing.__qualname__}"
+        if home.startswith("stommel.") and home != f"{package.__name__}.{name}":
+            homes[name] = home
+    return homes
+
+
 def reference_page(package: str) -> str:
-    """One page: the package's own docstring and every module in it."""
+    """One page: the package's own docstring, what it passes on, its packages by links and its modules in full.
+
+    Sphinx's recursive autosummary cannot write it: for a name that is both a module and a function that its package
+    passes on, as `stommel.analysis.trim`, it describes the function only.
+    """
     module = import_module(package)
-    page = [package, "=" * len(package), "", inspect.getdoc(module) or "", ""]
-    names = [info.name for info in pkgutil.iter_modules(module.__path__) if not info.ispkg]
-    for name in [f"{package}.{name}" for name in names]:
+    homes = _homes(module)
+    page = [package, "=" * len(package), "", f".. automodule:: {package}", "   :ignore-module-all:", ""]
+    page += [".. rubric:: Names that the package passes on", ""] if homes else []
+    page += [f":py:obj:`{name} <{home}>`\n   {_summary(getattr(module, name))}\n" for name, home in homes.items()]
+    inner = sorted(pkgutil.iter_modules(module.__path__, f"{package}."), key=lambda info: not info.ispkg)
+    if packages := [info.name for info in inner if info.ispkg]:
+        page += [".. rubric:: Packages inside", ""]
+        page += [f":doc:`{name}`\n   {_summary(import_module(name))}\n" for name in packages]
+        page += [".. toctree::", "   :hidden:", "", *[f"   {name}" for name in packages], ""]
+    for name in [info.name for info in inner if not info.ispkg]:
         page += [name, "-" * len(name), "", f".. automodule:: {name}", ""]
     return "\n".join(page)
 
@@ -174,11 +211,12 @@ def write_pages(app: Sphinx) -> None:
     _write(folder / "vehicle-file.md", "".join(file_tables(VehicleFile, meanings["meaning"], "vehicle file")))
     _write(folder / "mission-file.md", "".join(file_tables(ScenarioFile, meanings["mission"], "mission file")))
     _write(folder / "validation.md", validation_report())
-    packages = [f"stommel.{info.name}" for info in pkgutil.iter_modules(stommel.__path__) if info.ispkg]
     reference = folder / "reference"
-    for package in ["stommel", *packages]:
+    walked = pkgutil.walk_packages(stommel.__path__, "stommel.")
+    packages = ["stommel", *(info.name for info in walked if info.ispkg)]
+    for package in packages:
         _write(reference / f"{package}.rst", reference_page(package))
-    for stale in set(reference.glob("*.rst")) - {reference / f"{package}.rst" for package in ["stommel", *packages]}:
+    for stale in set(reference.glob("*.rst")) - {reference / f"{package}.rst" for package in packages}:
         stale.unlink()
 
 
@@ -197,9 +235,49 @@ def _show_colons(_app: Sphinx, _what: str, _name: str, _object: Any, _options: A
     lines[:] = [line.replace(_COLON, ":") for line in lines]
 
 
+def _type_front_door(
+    _app: Sphinx, what: str, name: str, thing: Any, _options: Any, signature: str | None, returns: str | None
+) -> tuple[str | None, str | None]:
+    """Show types at the front door; inside, docstrings tell units and shapes better than the types of arrays do."""
+    if what != "function" or name.removeprefix("stommel.") not in stommel.__all__:
+        return signature, returns
+    text = stringify_signature(sphinx_signature(thing), unqualified_typehints=True)
+    signature, _, returns = text.partition(" -> ")
+    return signature, returns
+
+
+_PAGE_NAMED = re.compile(r"\bdocs/((?:theory|guide|decisions)/[\w-]*\w)")
+_RAISES = re.compile(r"\b(StommelError|UnreachableFlightError)\b")
+
+
+def _link_to_page(found: re.Match[str]) -> str:
+    """Turn docs/theory/engine, or the number of a decision, into a link; a page that is not there is a warning."""
+    decisions = (Path(__file__).parents[1] / "decisions").glob(f"{found[1].removeprefix('decisions/')}-*.md")
+    return f":doc:`/{next((f'decisions/{page.stem}' for page in decisions), found[1])}`"
+
+
+def _link(_app: Sphinx, _what: str, _name: str, _object: Any, _options: Any, lines: list[str]) -> None:
+    """Link pages, and errors of the front door to their modules: they are described at both places."""
+    homes = _homes(stommel)
+    for number, line in enumerate(lines):
+        linked = _PAGE_NAMED.sub(_link_to_page, line)
+        if linked.startswith(":raises "):
+            linked = _RAISES.sub(lambda found: f"~{homes[found[1]]}", linked)
+        lines[number] = linked
+
+
+def _set_dashes(_app: Sphinx, doctree: nodes.document) -> None:
+    """Set the dash between a parameter and its meaning, which Sphinx leaves to smart quotes."""
+    for dash in [text for text in doctree.findall(nodes.Text) if text == " -- "]:
+        dash.parent.replace(dash, nodes.Text(" – "))
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     """Register the generator."""
     app.connect("builder-inited", write_pages)
     app.connect("autodoc-process-docstring", _keep_bars, priority=400)  # napoleon has 500
     app.connect("autodoc-process-docstring", _show_colons, priority=600)
+    app.connect("autodoc-process-docstring", _link, priority=600)
+    app.connect("autodoc-process-signature", _type_front_door)
+    app.connect("doctree-read", _set_dashes)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

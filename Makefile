@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 
-.PHONY: help setup run test check format bench docs clean
+.PHONY: help setup run test check format bench docs dist clean
 
 help:
 	@echo "make run     design the paper's glider; the report is build/zju-design.html"
@@ -12,6 +12,7 @@ help:
 	@echo "make check   format, lint, types and import contracts only"
 	@echo "make bench   every figure by name, also in build/bench.json"
 	@echo "make docs    the documentation site, build/docs/index.html"
+	@echo "make dist    a release: sdist and wheel in dist/, tried in an environment of its own"
 	@echo "make setup   the environment in .venv that the others make themselves"
 	@echo "make clean   remove the environment and everything built"
 
@@ -26,6 +27,8 @@ $(VENV)/run.stamp: pyproject.toml constraints.txt | $(BIN)/python
 
 $(VENV)/test.stamp: $(VENV)/run.stamp
 	$(PIP) install --quiet --constraint constraints.txt --editable '.[test,docs]'
+	@$(PIP) install --quiet --constraint constraints.txt --editable '.[bench]' || \
+	  echo "the peers of the benchmark cannot be installed here: their tests and figures are skipped" >&2
 	@touch $@
 
 setup: $(VENV)/test.stamp
@@ -46,16 +49,20 @@ format: $(VENV)/test.stamp
 test: check
 	$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
-$(VENV)/bench.stamp: $(VENV)/test.stamp
-	@$(PIP) install --quiet --constraint constraints.txt --editable '.[bench]' && touch $@ || \
-	  echo "make bench: the peers cannot be installed; their figures are skipped" >&2
-
-bench: $(VENV)/bench.stamp
+bench: $(VENV)/test.stamp
 	$(BIN)/python benchmarks/run.py
 
 docs: $(VENV)/test.stamp
 	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet -b html docs build/docs
 	@echo "docs: build/docs/index.html"
+
+dist: $(VENV)/test.stamp
+	rm -rf dist build/release
+	$(BIN)/python -m build --no-isolation
+	$(BIN)/python -m venv build/release
+	build/release/bin/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt dist/*.whl
+	cd build/release && bin/stommel simulate pool_trial --output pool_trial.nc
+	@echo "dist: the wheel flew the pool trial; $$(ls dist)"
 
 clean:
 	rm -rf $(VENV) build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache

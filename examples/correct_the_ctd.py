@@ -28,7 +28,7 @@ PLAN = {
 
 flown = fly_mission(mission_from(PLAN, "example", Path()))
 data = dataset_of(flown)
-ctd = flown.mission.plan.ctd
+ctd = flown.mission.scenario.ctd
 
 T, C, p = (data[f"sample_{name}"].values.astype(float) for name in ("temperature", "conductivity", "pressure"))
 seconds = (data["sample_time"].values - data["sample_time"].values[0]) / np.timedelta64(1, "s")

@@ -12,11 +12,10 @@ from typing import Any
 import numpy as np
 
 from figures.registry import Measurement, figure
-from stommel.planning.mission import Mission
 from stommel.simulation.flight import Flown, fly_mission
-from stommel.simulation.memory import STATE_COLUMNS
 from stommel.simulation.results.summary import summary
 from stommel.simulation.scenario.loading import load_mission
+from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.shipped import mission_path
 
 NAME = "still_20_days"
@@ -56,12 +55,12 @@ def _timed() -> tuple[Mission, Flown, list[tuple[float, float]]]:
 
 def _with_steps(mission: Mission, factor: int, *, noise: bool) -> Flown:
     """Fly the mission with `factor` times finer integration steps."""
-    cut = mission.plan.integration
+    cut = mission.scenario.integration
     finer = {"steady_steps": factor * cut.steady_steps, "moving_steps": factor * cut.moving_steps}
     changes: dict[str, Any] = {"integration": cut.model_copy(update=finer)}
     if not noise:
-        changes["sensors"] = mission.plan.sensors.model_copy(update=QUIET)
-    return fly_mission(replace(mission, plan=mission.plan.model_copy(update=changes)))
+        changes["sensors"] = mission.scenario.sensors.model_copy(update=QUIET)
+    return fly_mission(replace(mission, scenario=mission.scenario.model_copy(update=changes)))
 
 
 @cache
@@ -73,9 +72,8 @@ def _error() -> dict[str, Any]:
     """
     mission, flown, _ = _timed()
     coarse, exact = (_with_steps(mission, factor, noise=False) for factor in (1, FINER))
-    k = STATE_COLUMNS.index("depth")
     rows = min(len(exact.record), len(coarse.record))
-    apart = np.abs(exact.record[:rows, k] - coarse.record[:rows, k])
+    apart = np.abs(exact.record["depth"][:rows] - coarse.record["depth"][:rows])
     return {
         "depth_error_m": float(apart.max()),
         "depth_error_rms_m": float(np.sqrt(np.mean(apart**2))),
@@ -109,7 +107,7 @@ def mission_20d_s() -> Measurement:
 def mission_20d_speed_up() -> Measurement:
     """Measure simulated time over processor time of the same mission; the bar is 20 days in 2 s."""
     mission, _, times = _timed()
-    simulated = mission.plan.duration_days * 86400.0
+    simulated = mission.scenario.duration_days * 86400.0
     return Measurement(
         simulated / min(process for _, process in times), {"by_wall": simulated / min(wall for wall, _ in times)}
     )

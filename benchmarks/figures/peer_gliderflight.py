@@ -38,7 +38,7 @@ def series(flight: ReferenceFlight, measured: bool) -> Series:
     does not know, is added to the ballast volume.
     """
     prefix = "measured_" if measured else ""
-    p, plan = flight.vehicle, flight.mission.plan
+    p, plan = flight.vehicle, flight.mission.scenario
     expansion = p.V_0 * p.alpha_T * (flight.column("temperature") - p.T_0)
     depth = np.maximum(flight.column(prefix + "depth"), 0.0)
     return {
@@ -52,7 +52,7 @@ def series(flight: ReferenceFlight, measured: bool) -> Series:
 
 def dives(flight: ReferenceFlight, given: Series) -> list[Series]:
     """Pieces of a series in which the vehicle is under water, without the one that the record's end cuts off."""
-    under = flight.column("depth") > flight.mission.plan.surface.depth_m
+    under = flight.column("depth") > flight.mission.scenario.surface.depth_m
     edges = np.flatnonzero(np.diff(under.astype(int))) + 1
     pieces = [slice(a, b) for a, b in pairwise(edges) if under[a] and b - a > _SHORTEST]
     return [{name: values[piece].copy() for name, values in given.items()} for piece in pieces]

@@ -114,7 +114,7 @@ def write_aircraft(flight: ReferenceFlight, folder: Path, *, uniform: bool = Fal
 
     The water is the mission's, or that of the vehicle file at all depths if `uniform`.
     """
-    depths = np.arange(0.0, 1.5 * flight.mission.plan.dives.depth_m, 5.0)
+    depths = np.arange(0.0, 1.5 * flight.mission.scenario.dives.depth_m, 5.0)
     if uniform:
         density = np.full_like(depths, flight.mission.vehicle.description.water.density_kg_m3)
         hull_volume = np.full_like(depths, flight.vehicle.V_0)
@@ -162,7 +162,7 @@ class DivePlan:
 
 def plan_of(flight: ReferenceFlight) -> DivePlan:
     """The mission's own settings, depths and answer to heading errors; north."""
-    plan = flight.mission.plan
+    plan = flight.mission.scenario
     law = plan.heading_control
     down, up = flight.leg(True), flight.leg(False)
     table = flight_table(flight.mission.vehicle, physics=PHYSICS[plan.physics])

@@ -48,7 +48,7 @@ def _stommel() -> _Timed:
     def fly() -> tuple[float, float]:
         start = process_time()
         fly_mission(mission)
-        return mission.plan.duration_days * 86400.0, process_time() - start
+        return mission.scenario.duration_days * 86400.0, process_time() - start
 
     return fly
 

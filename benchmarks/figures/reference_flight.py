@@ -7,10 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.dynamics.packing import pack
-from stommel.planning.mission import Mission
 from stommel.simulation.flight import fly_mission
-from stommel.simulation.memory import STATE_COLUMNS
 from stommel.simulation.scenario.loading import load_mission
+from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.shipped import mission_path
 from stommel.vehicle import PHYSICS
 
@@ -43,12 +42,12 @@ class ReferenceFlight:
     mission: Mission
     vehicle: np.record
     """Parameters of the equations of motion, SI units."""
-    record: Array
-    """Rows over time, `STATE_COLUMNS`."""
+    record: NDArray[np.void]
+    """Rows over time, `stommel.simulation.log.ROW`."""
 
     def column(self, name: str) -> Array:
         """One quantity over time."""
-        return self.record[:, STATE_COLUMNS.index(name)]
+        return np.asarray(self.record[name])
 
     def speed(self) -> Array:
         """Through the water [m/s]; the sea of the mission is at rest."""
@@ -58,7 +57,7 @@ class ReferenceFlight:
         """Descents, or climbs, between a quarter and three quarters of the dive depth."""
         depth, time = self.column("depth"), self.column("time")
         sinking = np.gradient(depth, time)
-        share = depth / self.mission.plan.dives.depth_m
+        share = depth / self.mission.scenario.dives.depth_m
         rows = (share > 0.25) & (share < 0.75) & ((sinking > 0) == down)
         return Leg(
             ballast=float(np.median(self.column("ballast")[rows])),
@@ -70,7 +69,7 @@ class ReferenceFlight:
 
     def water(self, depths: Array) -> tuple[Array, Array]:
         """Density [kg/m3] and volume of the hull without ballast [m3] at depths [m], at the start."""
-        plan, p = self.mission.plan, self.vehicle
+        plan, p = self.mission.scenario, self.vehicle
         place = (plan.start_seconds, plan.start.latitude_deg, plan.start.longitude_deg)
         samples = [self.mission.ocean.at(*place, float(depth)) for depth in depths]
         yielded = [1.0 - p.kappa * one.pressure + p.alpha_T * (one.temperature - p.T_0) for one in samples]
@@ -81,6 +80,6 @@ class ReferenceFlight:
 def reference_flight() -> ReferenceFlight:
     """Fly the first hours."""
     mission = load_mission(mission_path(NAME))
-    plan = mission.plan.model_copy(update={"duration_days": HOURS / 24.0, "output_every_s": 1.0})
+    plan = mission.scenario.model_copy(update={"duration_days": HOURS / 24.0, "output_every_s": 1.0})
     piece = Mission(plan, mission.vehicle, mission.ocean, mission.origin, mission.document)
     return ReferenceFlight(piece, pack(piece.vehicle, PHYSICS[plan.physics]), fly_mission(piece).record)

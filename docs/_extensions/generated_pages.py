@@ -26,14 +26,12 @@ from sphinx.util.inspect import stringify_signature
 
 import stommel
 from stommel.files.fields import Table
-from stommel.files.sentences import allowed_range, unit_of
-from stommel.simulation.scenario.mission_file import MissionFile
+from stommel.files.sentences import allowed_range
+from stommel.files.units import unit_of
+from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle.schema import VehicleFile
 
 logger = logging.getLogger(__name__)
-
-UNITS = {"coupling_kg_m": "kg m"}
-"""Units that the key's name alone would give wrongly."""
 
 
 def attribute_docstrings(model: type[BaseModel]) -> dict[str, str]:
@@ -141,7 +139,7 @@ def file_tables(model: type[BaseModel], meanings: dict[str, str], what: str) -> 
                 logger.warning("docs/guide/meanings.toml says nothing about the key %s of a %s", dotted, what)
             allowed = [_kind(field), allowed_range((key,), table)]
             words = ", ".join(word for word in allowed if word) or "any number"
-            unit = (UNITS.get(key) or unit_of(key) or "").replace("2", "²").replace("3", "³")
+            unit = (unit_of(key) or "").replace("2", "²").replace("3", "³")
             yield f"| `{key}` | {unit} | {meaning} | {words} | {_default(field)} |\n"
     for dotted in sorted(unused):
         logger.warning("docs/guide/meanings.toml describes %s, which no %s has", dotted, what)
@@ -211,7 +209,7 @@ def write_pages(app: Sphinx) -> None:
     folder = Path(app.srcdir) / "_generated"
     meanings = tomllib.loads((Path(app.srcdir) / "guide" / "meanings.toml").read_text(encoding="utf-8"))
     _write(folder / "vehicle-file.md", "".join(file_tables(VehicleFile, meanings["meaning"], "vehicle file")))
-    _write(folder / "mission-file.md", "".join(file_tables(MissionFile, meanings["mission"], "mission file")))
+    _write(folder / "mission-file.md", "".join(file_tables(ScenarioFile, meanings["mission"], "mission file")))
     _write(folder / "validation.md", validation_report())
     reference = folder / "reference"
     walked = pkgutil.walk_packages(stommel.__path__, "stommel.")

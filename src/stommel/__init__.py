@@ -31,10 +31,11 @@ _WHERE = {
     "trim_table": "stommel.analysis",
     "turn": "stommel.analysis",
     "design_study": "stommel.design.study",
-    "write_report": "stommel.design.report",
-    "Mission": "stommel.planning.mission",
+    "write_report": "stommel.report",
+    "Mission": "stommel.simulation.scenario.mission",
     "load_mission": "stommel.simulation.scenario.loading",
     "fly_mission": "stommel.simulation.flight",
+    "Simulator": "stommel.simulation.simulator",
     "dataset_of": "stommel.simulation.results.dataset",
     "StommelError": "stommel.errors",
 }
@@ -45,6 +46,7 @@ __all__ = [
     "Mission",
     "Ocean",
     "Physics",
+    "Simulator",
     "SteadyFlight",
     "StommelError",
     "UnreachableFlightError",
@@ -86,14 +88,15 @@ if TYPE_CHECKING:
         trim_table,
         turn,
     )
-    from stommel.design.report import write_report
     from stommel.design.study import design_study
     from stommel.errors import StommelError
     from stommel.ocean import Ocean
-    from stommel.planning.mission import Mission
+    from stommel.report import write_report
     from stommel.simulation.flight import fly_mission
     from stommel.simulation.results.dataset import dataset_of
     from stommel.simulation.scenario.loading import load_mission
+    from stommel.simulation.scenario.mission import Mission
+    from stommel.simulation.simulator import Simulator
     from stommel.vehicle import FULL, PAPER, Physics, Vehicle, builtin_names, load_vehicle
 
 

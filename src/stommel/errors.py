@@ -7,6 +7,9 @@ class StommelError(Exception):
     """Base of every error that names its cause and what is allowed; anything else is a defect of stommel."""
 
 
+_LONGEST_NAME = 300
+
+
 @dataclass(frozen=True)
 class Problem:
     """One thing wrong with a file from outside."""
@@ -16,7 +19,13 @@ class Problem:
     message: str
 
     def __str__(self) -> str:
-        return f"{self.file}: {self.message}"
+        return f"{_shown(self.file)}: {self.message}"
+
+
+def _shown(name: str) -> str:
+    """Name of a file on one line of a sensible length, whatever it holds."""
+    plain = name if name.isprintable() else repr(name)[1:-1]
+    return plain if len(plain) <= _LONGEST_NAME else f"{plain[:_LONGEST_NAME]}..."
 
 
 class FileError(StommelError):

@@ -15,11 +15,6 @@ from stommel.seawater.water import Water
 POINTS = [(0, 3, 4), (0, 10, 9), (1, 10, 9), (1, 16, 2)]
 
 
-@pytest.fixture(scope="module")
-def zju() -> stommel.Vehicle:
-    return stommel.load_vehicle("zju")
-
-
 @pytest.mark.parametrize(("way", "i", "j"), POINTS)
 def test_flights_are_those_of_the_trim_solver(zju: stommel.Vehicle, way: int, i: int, j: int) -> None:
     table, sign = flight_table(zju), (-1.0, 1.0)[way]

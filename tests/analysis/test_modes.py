@@ -18,11 +18,6 @@ from stommel.errors import FileError
 from stommel.geometry.attitude import euler_rates, quaternion_from_euler
 
 
-@pytest.fixture(scope="module")
-def zju() -> stommel.Vehicle:
-    return stommel.load_vehicle("zju")
-
-
 def nonlinear_rates(vehicle: stommel.Vehicle, s: np.ndarray, inputs: np.ndarray) -> np.ndarray:
     """Rates of (u, w, q, theta, v, p, r, phi) from the accelerations of the equations of motion."""
     u, w, q, theta, v, p, r, phi = (float(value) for value in s)

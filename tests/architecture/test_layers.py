@@ -5,8 +5,8 @@ import sys
 from pathlib import Path
 
 import stommel
-
-ROOT = Path(__file__).parents[2]
+from tests.support.pages import ROOT
+from tests.support.python import run_python
 
 
 def test_import_contracts_hold() -> None:
@@ -26,5 +26,4 @@ def test_importing_stommel_is_light() -> None:
     """The front door loads neither compiler nor plots: start-up counts."""
     heavy = {"numba", "numpy", "scipy", "matplotlib"}
     code = f"import sys, stommel, stommel.cli.app; print(sorted({heavy} & set(sys.modules)))"
-    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert found.stdout.strip() == "[]"
+    assert run_python("-c", code).strip() == "[]"

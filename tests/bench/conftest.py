@@ -8,7 +8,6 @@ import pytest
 from stommel.bench import BenchPlan, bench_engine, generate_log, write_log
 from stommel.machinery.engine.steady_state import EngineParameters
 from stommel.vehicle import load_vehicle
-from tests.cli.conftest import stommel  # noqa: F401  # the fixture
 
 
 @pytest.fixture(scope="session")

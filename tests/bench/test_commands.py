@@ -1,14 +1,12 @@
 """`stommel bench` as its users run it: JSON, tables of 80 columns, plots, refusals, and the guide's examples."""
 
-import shlex
 from pathlib import Path
 
 import pytest
 
 from stommel.bench import MARKER
-from tests.cli.conftest import Command, Outcome
-
-GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "bench.md"
+from tests.support.command import Command, Outcome
+from tests.support.pages import commands, guide
 
 
 @pytest.fixture
@@ -26,19 +24,19 @@ def readable(found: Outcome) -> None:
 
 
 def test_analyse(stommel: Command, log: Path, tmp_path: Path) -> None:
-    found = stommel("bench", "analyse", log, "--plot", "figures/bench", "--json").json
+    found = stommel("bench", "analyse", log, "--plots", "figures/bench", "--json").json
     assert found["generated"] is True
     assert found["origin"] == MARKER
     assert len(found["runs"]) == 24
     assert found["choice"]["motor_speed_rpm"] == pytest.approx(7000.0, rel=0.002)
-    assert len(found["plots"]) == 4
-    assert all((tmp_path / path).stat().st_size > 5000 for path in found["plots"])
+    assert len(found["written"]) == 4
+    assert all((tmp_path / path).stat().st_size > 5000 for path in found["written"])
     assert MARKER in " ".join(stommel("bench", "analyse", log).out.split())
     readable(stommel("bench", "analyse", log))
 
 
 def test_fit(stommel: Command, log: Path, tmp_path: Path) -> None:
-    found = stommel("bench", "fit", log, "--plot", "fit", "--json").json
+    found = stommel("bench", "fit", log, "--plots", "fit", "--json").json
     assert found["generated"] is True
     assert len(found["parameters"]) == 5
     for one in found["parameters"]:
@@ -46,7 +44,7 @@ def test_fit(stommel: Command, log: Path, tmp_path: Path) -> None:
         assert one["true"] is not None
         assert one["true_inside"] is True
     assert len(found["correlation"]) == 5
-    assert all((tmp_path / path).is_file() for path in found["plots"])
+    assert all((tmp_path / path).is_file() for path in found["written"])
     readable(stommel("bench", "fit", log))
 
 
@@ -72,10 +70,10 @@ def test_speed(stommel: Command) -> None:
 
 
 def test_pressure(stommel: Command, tmp_path: Path) -> None:
-    found = stommel("bench", "pressure", "fan2013-table5", "--plot", "table5", "--json").json
+    found = stommel("bench", "pressure", "fan2013-table5", "--plot", "table5.pdf", "--json").json
     assert found["passed"] is True
     assert [hold["loss_mpa"] for hold in found["holds"]] == pytest.approx([0.067, 0.075, 0.073, 0.042, 0.046, 0.025])
-    assert all((tmp_path / path).is_file() for path in found["plots"])
+    assert all((tmp_path / path).is_file() for path in found["written"])
     readable(stommel("bench", "pressure", "fan2013-table5"))
 
 
@@ -90,7 +88,7 @@ def test_a_failed_pressure_test_is_a_result(stommel: Command, tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("analyse", "nowhere.csv"), ["nowhere.csv", "no column map"]),
+        (("analyse", "nowhere.csv"), ["nowhere.csv: cannot be read: No such file"]),
         (("analyse", "bench.csv", "--column", "pressure"), ["--column 'pressure'", "QUANTITY=COLUMN:UNIT"]),
         (("analyse", "bench.csv", "--column", "depth=d:m"), ["depth=d:m", "pressure, motor_speed"]),
         (("analyse", "bench.csv", "--column", "pressure=pressure_mpa:atm"), ["'atm'", "unknown unit"]),
@@ -129,8 +127,8 @@ def test_nothing_half_written_is_left(stommel: Command, tmp_path: Path) -> None:
 
 
 def test_the_guide_s_examples_run(stommel: Command) -> None:
-    lines = [line for line in GUIDE.read_text(encoding="utf-8").splitlines() if line.startswith("stommel ")]
-    assert len(lines) >= 5
-    for line in lines:
-        found = stommel(*shlex.split(line)[1:])
-        assert found.status == 0, (line, found.err)
+    calls = commands(guide("bench"))
+    assert len(calls) >= 5
+    for arguments in calls:
+        found = stommel(*arguments)
+        assert found.status == 0, (arguments, found.err)

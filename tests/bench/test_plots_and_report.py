@@ -1,5 +1,6 @@
 """What a reader sees: the mark of generated data, a curve a pressure, limits, and the section of the design report."""
 
+from collections.abc import Callable
 from math import pi
 from pathlib import Path
 
@@ -72,14 +73,9 @@ def test_the_study_takes_speeds_and_pressures_of_section_512(study: SpeedStudy) 
     assert study.engine == bench_engine(load_vehicle("zju"))
 
 
-def test_the_design_report_has_the_section() -> None:
-    from stommel.design.report.page import report_html
-    from stommel.design.study import design_study
-
-    page = report_html(design_study(load_vehicle("zju")))
-    section = page.partition('<section id="motor-speed">')[2].partition("</section>")[0]
+def test_the_design_report_has_the_section(report_of: Callable[[str], str]) -> None:
+    section = report_of("zju").partition('<section id="motor-speed">')[2].partition("</section>")[0]
     assert "7000 r/min takes least" in section
     assert "by the model, not measured" in section
     assert section.count("<tr>") == 5
-    other = report_html(design_study(load_vehicle("rogue")))
-    assert "No motor speed is compared, because" in other
+    assert "No motor speed is compared, because" in report_of("rogue")

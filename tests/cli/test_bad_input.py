@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Command, Outcome
+from tests.support.command import Command, Outcome
 
 
 def refused(found: Outcome, *words: str) -> None:
@@ -114,7 +114,7 @@ def test_bad_vehicle_file_names_every_problem(stommel: Command, tmp_path: Path) 
 def test_unwritable_output_leaves_nothing(stommel: Command, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     for arguments in (
-        ("design", "zju", "--output", "file/report.html"),
+        ("design", "rogue", "--output", "file/report.html"),
         (
             "root-locus",
             "zju",
@@ -126,8 +126,8 @@ def test_unwritable_output_leaves_nothing(stommel: Command, tmp_path: Path) -> N
             0.2,
             "--points",
             2,
-            "--output",
-            "file/locus",
+            "--plot",
+            "file/locus.png",
         ),
         ("vehicle", "new", "file/mine.toml"),
     ):
@@ -137,5 +137,5 @@ def test_unwritable_output_leaves_nothing(stommel: Command, tmp_path: Path) -> N
 
 def test_output_that_is_a_folder(stommel: Command, tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
-    refused(stommel("design", "zju", "--output", "folder"), "is a folder")
+    refused(stommel("design", "rogue", "--output", "folder"), "is a folder")
     assert list((tmp_path / "folder").iterdir()) == []

@@ -6,13 +6,12 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Command
+from tests.support.command import PROGRAM, Command
 
 PLAN = """
 name = "a few dives"
@@ -73,8 +72,8 @@ def test_summary_fits_a_terminal(stommel: Command, plan: Path) -> None:
     assert max(map(len, done.out.splitlines())) <= 80
 
 
-def test_speed_up_is_simulated_over_measured_time(stommel: Command, plan: Path) -> None:
-    row = stommel("simulate", plan, "--speed-up", "--json").json
+def test_speed_up_is_simulated_over_measured_time(stommel: Command, stommel_process: Command, plan: Path) -> None:
+    row = stommel_process("simulate", plan, "--speed-up", "--json").json
     assert row["speed_up"] == pytest.approx(row["days"] * 86400.0 / row["flight_s"], rel=1e-12)
     assert row["flight_s"] < 20.0  # compiling alone takes longer
     shown = stommel("simulate", plan, "--speed-up").out
@@ -86,8 +85,7 @@ def test_progress_bar_shows_date_and_speed_in_a_terminal(plan: Path) -> None:
     far = plan.read_text().replace("latitude_deg = 28.4", "latitude_deg = 33.0").replace("east_china_sea", "still")
     plan.write_text(far.replace("duration_days = 0.05", "duration_days = 2"))
     reader, terminal = pty.openpty()
-    program = Path(sys.executable).with_name("stommel")
-    with subprocess.Popen([program, "simulate", plan, "--json"], stderr=terminal, stdout=subprocess.PIPE) as running:
+    with subprocess.Popen([PROGRAM, "simulate", plan, "--json"], stderr=terminal, stdout=subprocess.PIPE) as running:
         os.close(terminal)
         shown = b""
         with contextlib.suppress(OSError):  # how the end of a terminal reads on Linux
@@ -145,19 +143,21 @@ def test_unwritable_output_is_refused(stommel: Command, plan: Path) -> None:
     assert "cannot be written" in done.err
 
 
-def test_interruption_leaves_no_file(stommel: Command, plan: Path, tmp_path: Path) -> None:
+def test_interruption_leaves_no_file(stommel: Command, stommel_process: Command, plan: Path, tmp_path: Path) -> None:
     assert stommel("simulate", plan, "--json").status == 0  # compiles first, so that the signal meets a flying mission
+    begun = time.monotonic()
+    assert stommel_process("simulate", plan, "--json").status == 0
+    until_flying = time.monotonic() - begun
     for written in tmp_path.glob("*.nc"):
         written.unlink()
-    program = Path(sys.executable).with_name("stommel")
     # a goal that is months away, in an ocean without an edge
     long = plan.read_text().replace("duration_days = 0.05", "duration_days = 700")
     long = long.replace("latitude_deg = 28.4", "latitude_deg = 85.0").replace("east_china_sea", "still")
     plan.write_text(long.replace('name = "a few dives"', 'name = "long"\nchanges = { "battery.capacity_ah" = 50000 }'))
     running = subprocess.Popen(
-        [program, "simulate", plan, "--output", tmp_path / "m.nc"], stderr=subprocess.PIPE, stdout=subprocess.PIPE
+        [PROGRAM, "simulate", plan, "--output", tmp_path / "m.nc"], stderr=subprocess.PIPE, stdout=subprocess.PIPE
     )
-    time.sleep(6.0)
+    time.sleep(1.5 * until_flying + 0.5)
     running.send_signal(signal.SIGINT)
     _, err = running.communicate(timeout=120)
     assert running.returncode == 130, err

@@ -21,7 +21,7 @@ from stommel.control.dive_cycle import (
     TARGET_REACHED,
     DivePlan,
     DiveState,
-    Readings,
+    Situation,
     next_dive_state,
     wanted_ballast,
     wanted_pitch,
@@ -47,7 +47,7 @@ PLAN = DivePlan(
     abort_depth=110.0,
     abort_time=43200.0,
 )
-READINGS = Readings(depth=50.0, altitude=inf, ballast=-1e-4, wanted=True, fixed=True, alarm=NOTHING)
+NOW = Situation(depth=50.0, altitude=inf, ballast=-1e-4, wanted=True, fixed=True, alarm=NOTHING)
 
 
 def state(phase: int, since: float = 0.0, **changes: float) -> DiveState:
@@ -89,7 +89,7 @@ STEPS = [
 
 @pytest.mark.parametrize(("phase", "plan", "readings", "then", "why"), STEPS)
 def test_transition(phase: int, plan: dict[str, float], readings: dict[str, float], then: int, why: int) -> None:
-    found = next_dive_state(state(phase), PLAN._replace(**plan), T, READINGS._replace(**readings))
+    found = next_dive_state(state(phase), PLAN._replace(**plan), T, NOW._replace(**readings))
     assert int(found.phase) == then
     assert int(found.event) == why
     assert found.since == (T if then != phase else 0.0)
@@ -98,15 +98,15 @@ def test_transition(phase: int, plan: dict[str, float], readings: dict[str, floa
 def test_a_dive_that_took_too_long_surfaces() -> None:
     plan = PLAN._replace(dives_per_surfacing=5.0)
     before = state(ASCENT, event=float(ABORT_TIME))
-    assert int(next_dive_state(before, plan, T, READINGS._replace(depth=5.0)).phase) == ASCENT
-    assert int(next_dive_state(before, plan, T, READINGS._replace(depth=0.9)).phase) == SURFACE
+    assert int(next_dive_state(before, plan, T, NOW._replace(depth=5.0)).phase) == ASCENT
+    assert int(next_dive_state(before, plan, T, NOW._replace(depth=0.9)).phase) == SURFACE
 
 
 def test_counts_of_dives() -> None:
     plan = PLAN._replace(dives_per_surfacing=3.0)
-    again = next_dive_state(state(ASCENT, dives=4.0, dives_here=2.0), plan, T, READINGS._replace(depth=5.0))
+    again = next_dive_state(state(ASCENT, dives=4.0, dives_here=2.0), plan, T, NOW._replace(depth=5.0))
     assert (again.dives, again.dives_here, again.submerged_since) == (5.0, 3.0, 0.0)
-    fresh = next_dive_state(state(SURFACE, dives=5.0, dives_here=3.0), plan, T, READINGS)
+    fresh = next_dive_state(state(SURFACE, dives=5.0, dives_here=3.0), plan, T, NOW)
     assert (fresh.dives, fresh.dives_here, fresh.submerged_since) == (6.0, 1.0, T)
 
 

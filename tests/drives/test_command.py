@@ -1,17 +1,17 @@
 """`stommel drives` as its users run it; the example of the guide runs."""
 
-import re
 from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Command
+from tests.support.command import Command
+from tests.support.pages import commands, guide
 
-GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "drives.md"
+GUIDE = guide("drives")
 
 
 def test_json_answers_the_issue(stommel: Command) -> None:
-    found = stommel("drives", "zju", "--json", "--plot", "plots/drives")
+    found = stommel("drives", "zju", "--json", "--plot", "plots/drives.svg")
     assert found.status == 0
     pitch, rudder = found.json["pitch"], found.json["rudder"]
     assert pitch["self_locking"] is True
@@ -27,7 +27,7 @@ def test_json_answers_the_issue(stommel: Command) -> None:
     assert all(run["caught"] for run in pitch["over_runs"])
     assert rudder["turn"]["hold_energy_j"] == 0.0
     assert found.json["warnings"] == []
-    assert [Path(name).suffix for name in found.json["plots"]] == [".png", ".svg"]
+    assert found.json["written"] == ["plots/drives.svg"]
 
 
 def test_terminal_fits_80_columns(stommel: Command) -> None:
@@ -85,7 +85,7 @@ def test_bad_tables_name_key_value_and_range(
 
 
 def test_the_guide_runs(stommel: Command) -> None:
-    commands = re.findall(r"^stommel (drives .*)$", GUIDE.read_text(encoding="utf-8"), re.MULTILINE)
-    assert commands
-    for command in commands:
-        assert stommel(*command.split()).status == 0, command
+    calls = commands(GUIDE, "drives")
+    assert calls
+    for arguments in calls:
+        assert stommel(*arguments).status == 0, arguments

@@ -150,8 +150,8 @@ def test_limit_switches_let_the_mass_only_back() -> None:
         ({"actuators.moving_mass.speed_mm_s": 6.0}, "moving_mass_speed_differs"),
         ({"actuators.rudder.speed_deg_s": 30.0}, "rudder_speed_differs"),
         ({"drives.rudder.stock_chord_fraction": 0.4}, "rudder_overbalanced"),
-        ({"drives.rudder.brake.holding_torque_mnm": 0.01}, "brake_slips"),
-        ({"drives.rudder.seal_friction_mnm": 1e6}, "rudder_stalls"),
+        ({"drives.rudder.brake.holding_torque_mn_m": 0.01}, "brake_slips"),
+        ({"drives.rudder.seal_friction_mn_m": 1e6}, "rudder_stalls"),
         ({"actuators.moving_mass.travel_mm.1": 400.0}, "no_trim_change"),
     ],
 )

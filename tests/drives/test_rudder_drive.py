@@ -33,7 +33,7 @@ def test_hinge_moment_is_force_times_arm() -> None:
 
 
 def test_step_in_still_water_without_friction_runs_at_no_load_speed() -> None:
-    drive = RudderDrive.of(ZJU.with_value("drives.rudder.seal_friction_mnm", 0.0))
+    drive = RudderDrive.of(ZJU.with_value("drives.rudder.seal_friction_mn_m", 0.0))
     step = drive.step(0.0, radians(60.0), 0.0)
     assert step is not None
     expected = radians(60.0) * drive.gearbox.ratio / drive.motor.no_load_speed

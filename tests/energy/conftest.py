@@ -1,14 +1,9 @@
-"""The vehicle and its study, computed once."""
+"""The study of the vehicle, computed once."""
 
 import pytest
 
 from stommel.design.endurance import EnergyStudy, energy_study
-from stommel.vehicle import Vehicle, load_vehicle
-
-
-@pytest.fixture(scope="session")
-def zju() -> Vehicle:
-    return load_vehicle("zju")
+from stommel.vehicle import Vehicle
 
 
 @pytest.fixture(scope="session")

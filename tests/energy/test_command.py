@@ -6,9 +6,7 @@ from pathlib import Path
 import pytest
 
 from stommel.vehicle import builtin_text
-from tests.cli.conftest import Command, Outcome, stommel
-
-__all__ = ["stommel"]
+from tests.support.command import Command, Outcome
 
 KEYS = {
     "endurance_days",
@@ -48,8 +46,8 @@ def test_terminal_is_80_columns_wide_and_lists_every_assumption(stommel: Command
 
 
 def test_plot(stommel: Command, tmp_path: Path) -> None:
-    found = stommel("endurance", "zju", "--plot", "out/energy", "--json")
-    assert found.json["plots"] == ["out/energy.png", "out/energy.svg"]
+    found = stommel("endurance", "zju", "--plot", "out/energy.svg", "--json")
+    assert found.json["written"] == ["out/energy.svg"]
     svg = (tmp_path / "out" / "energy.svg").read_text()
     # a bar for every part, and two for every assumption shown
     assert len(re.findall(r'id="energy(-\d+)?"', svg)) == len(found.json["energy_per_dive_j"])

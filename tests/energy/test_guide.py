@@ -5,22 +5,21 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Command, stommel
+from tests.support.command import Command
+from tests.support.pages import blocks, commands, guide
 
-__all__ = ["stommel"]
-
-GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "endurance.md"
+GUIDE = guide("endurance")
 
 
 def number(pattern: str) -> float:
-    found = re.search(pattern, " ".join(GUIDE.read_text(encoding="utf-8").split()))
+    found = re.search(pattern, " ".join(GUIDE.split()))
     assert found is not None, pattern
     return float(found.group(1))
 
 
 def decided(text: str) -> str:
     """The vehicle file after the decisions of the guide's TOML block, applied as it says."""
-    (block,) = re.findall(r"```toml\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S)
+    (block,) = blocks(GUIDE, "toml")
     consumer, plan = (part.split("\n", 1)[1] for part in block.split("# in ")[1:])
     text = text.replace('on = "always"\n', consumer.strip() + "\n", 1)
     changed = re.sub(r"^dives_per_surfacing = .*$", plan.strip(), text, flags=re.M)
@@ -29,11 +28,8 @@ def decided(text: str) -> str:
 
 
 def test_commands_and_numbers(stommel: Command, tmp_path: Path) -> None:
-    blocks = re.findall(r"```console\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S)
-    for line in "".join(blocks).splitlines():
-        program, *arguments = line.removeprefix("$ ").split()
-        assert program == "stommel"
-        assert stommel(*arguments).status == 0, line
+    for arguments in commands(GUIDE):
+        assert stommel(*arguments).status == 0, arguments
         if arguments[:2] == ["vehicle", "new"]:
             mine = tmp_path / arguments[2]
             mine.write_text(decided(mine.read_text()))

@@ -1,13 +1,10 @@
-"""Engines that the tests share, and the command as in tests/cli."""
+"""Engines that the tests share."""
 
 import pytest
 
 from stommel.machinery.engine import engine_of, load_engine
 from stommel.vehicle import load_vehicle
 from stommel.vehicle.schema import Engine
-from tests.cli.conftest import stommel
-
-__all__ = ["stommel"]
 
 
 @pytest.fixture(scope="session")

@@ -6,8 +6,8 @@ test, from an energy that the formulas under test do not use.
 
 import pytest
 
-from stommel.design.hull import find_material, load_materials
-from stommel.design.hull.buckling import (
+from stommel.machinery.hull import find_material, load_materials
+from stommel.machinery.hull.buckling import (
     RingSection,
     bryant,
     critical_length,
@@ -16,7 +16,7 @@ from stommel.design.hull.buckling import (
     von_mises,
     windenburg_trilling,
 )
-from stommel.design.hull.paper_formulas import circumferential_pressure
+from stommel.machinery.hull.paper_formulas import circumferential_pressure
 from tests.hull.shell_elements import Cylinder, bifurcation_pressure
 
 WALLS_MM = {"12Cr1MoV": 3.3, "LY12": 5.2, "TC4": 4.2, "6061-T6": 5.0}

@@ -1,12 +1,12 @@
 """`stommel hull` through the front door."""
 
-import re
 from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Command
 from tests.cli.test_bad_input import refused
+from tests.support.command import Command
+from tests.support.pages import commands, guide
 
 KEYS = {
     "name",
@@ -23,7 +23,7 @@ KEYS = {
     "rank",
     "reasons",
 }
-GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "hull.md"
+GUIDE = guide("hull")
 
 
 def test_json(stommel: Command) -> None:
@@ -55,7 +55,7 @@ def test_deeper_needs_more(stommel: Command) -> None:
 def test_thin_wall_is_named_in_terminal_and_json(stommel: Command) -> None:
     shown = stommel("hull", "zju", "--material", "TC4", "--wall", 3.5)
     assert shown.status == 0
-    assert "WARNING wall too thin" in shown.out
+    assert "warning: wall too thin: " in shown.out
     found = stommel("hull", "zju", "--material", "TC4", "--wall", 3.5, "--json").json
     assert "wall too thin" in {warning["name"] for warning in found["warnings"]}
     assert "wall too thin" in {warning["name"] for warning in found["materials"][0]["warnings"]}
@@ -77,7 +77,7 @@ def test_plot_and_own_materials(stommel: Command, tmp_path: Path) -> None:
     options = ("--materials", "mine.toml", "--material", "pmma", "--depth", 50, "--plot", "hull.png", "--json")
     found = stommel("hull", "zju", *options).json
     assert [row["name"] for row in found["materials"]] == ["PMMA"]
-    assert found["plots"] == ["hull.png", "hull.svg"]
+    assert found["written"] == ["hull.png"]
     assert (tmp_path / "hull.png").read_bytes().startswith(b"\x89PNG")
 
 
@@ -122,10 +122,7 @@ def test_refused_vehicle_files(stommel: Command, tmp_path: Path, was: str, becom
 
 
 def test_commands_of_the_guide_run(stommel: Command) -> None:
-    blocks = re.findall(r"```console\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S)
-    commands = [line.removeprefix("$ ") for block in blocks for line in block.splitlines() if line.startswith("$ ")]
-    assert len(commands) >= 3
-    for command in commands:
-        program, *arguments = command.split()
-        assert program == "stommel"
-        assert stommel(*arguments).status == 0, command
+    calls = commands(GUIDE)
+    assert len(calls) >= 3
+    for arguments in calls:
+        assert stommel(*arguments).status == 0, arguments

@@ -7,12 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stommel.design.hull import MaterialError, find_material, hull_study, load_materials
-from stommel.design.hull.buckling import RingSection
+from stommel.design.hull import hull_study
 from stommel.design.hull.ranking import ranked
 from stommel.design.hull.requirement import requirement
 from stommel.design.hull.sizing import size
 from stommel.errors import FileError
+from stommel.machinery.hull import MaterialError, find_material, load_materials
+from stommel.machinery.hull.buckling import RingSection
 from stommel.vehicle import load_vehicle, vehicle_from_text
 from stommel.vehicle.loading import builtin_text
 
@@ -110,7 +111,7 @@ def test_ranking_follows_its_marks() -> None:
 def test_own_hull_thinner_than_its_criterion_is_named() -> None:
     text = builtin_text("zju").replace("wall_mm = { value = 4.2", "wall_mm = { value = 3")
     study = hull_study(vehicle_from_text(text, "zju.toml"))
-    named = {warning.name: warning.text for warning in study.warnings}
+    named = {warning.name: warning.message for warning in study.warnings}
     assert "3 mm is less than the 4.18 mm" in named["wall too thin"]
     assert "classical criterion not met" in named
 

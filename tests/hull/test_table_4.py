@@ -2,9 +2,10 @@
 
 import pytest
 
-from stommel.design.hull import HullStudy, find_material, hull_study, load_materials
+from stommel.design.hull import HullStudy, hull_study
 from stommel.design.hull.comparison import ComparedQuantity
-from stommel.design.hull.paper_formulas import axial_critical_stress, circumferential_wall
+from stommel.machinery.hull import find_material, load_materials
+from stommel.machinery.hull.paper_formulas import axial_critical_stress, circumferential_wall
 from stommel.vehicle import load_vehicle
 
 PAPER = ("12Cr1MoV", "LY12", "TC4")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_bvp
 
-from stommel.design.hull import end_caps
-from stommel.design.hull.elasticity import (
+from stommel.machinery.hull import end_caps
+from stommel.machinery.hull.elasticity import (
     sphere_first_yield,
     tube_compressibility,
     tube_first_yield,

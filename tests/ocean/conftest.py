@@ -1,6 +1,5 @@
-"""Where the shared data are, and small CF files made on purpose."""
+"""Small CF files made on purpose."""
 
-import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -8,21 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-
-from tests.cli.conftest import stommel
-
-__all__ = ["stommel"]
-
-ROOT = Path(__file__).parents[2]
-
-
-@pytest.fixture(scope="session")
-def arctic20() -> Path:
-    folder = Path(os.environ.get("STOMMEL_DATA", ROOT.parent / "shared" / "data"))
-    path = folder / "arctic20" / "arctic20.nc"
-    if not path.exists():
-        pytest.skip(f"no shared data: {path}")
-    return path
 
 
 def regular_sea() -> xr.Dataset:

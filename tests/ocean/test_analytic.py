@@ -49,7 +49,7 @@ def test_tide_runs_round_its_ellipse() -> None:
     """Along the axes of the ellipse the current is (a cos, b sin) of the angle; its acceleration is the derivative."""
     a, b, inclination, phase, period = 0.5, -0.2, 40.0, 75.0, 12.0
     ocean = Ocean.analytic(
-        "tide", semi_major_m_s=a, semi_minor_m_s=b, inclination_deg=inclination, phase_deg=phase, period_h=period
+        "tide", semi_major_m_s=a, semi_minor_m_s=b, inclination_deg=inclination, phase_deg=phase, period_hours=period
     )
     omega, turn = 2.0 * np.pi / (period * 3600.0), np.exp(1j * np.radians(inclination))
     for time in np.linspace(1.7e9, 1.7e9 + 43200.0, 9):

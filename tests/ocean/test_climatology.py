@@ -73,7 +73,7 @@ def test_the_edge_gives_way_to_the_second_ocean_in_space(sea_file: Writer) -> No
 @pytest.mark.parametrize("hours", [-30.0, -12.0, -3.0, 15.0, 24.0, 60.0])
 def test_the_last_time_gives_way_to_the_second_ocean(sea_file: Writer, hours: float) -> None:
     behind = Ocean.analytic("uniform", **BEHIND)
-    ocean = Ocean.open(sea_file(), outside_time="climatology", climatology=behind, blend_h=24.0)
+    ocean = Ocean.open(sea_file(), outside_time="climatology", climatology=behind, blend_hours=24.0)
     beyond = max(-hours, hours - 12.0)
     edge = ocean.at(START + 3600.0 * min(max(hours, 0.0), 12.0), 12.5, 179.5, 30.0)
     sample = ocean.at(START + 3600.0 * hours, 12.5, 179.5, 30.0)
@@ -91,7 +91,7 @@ def test_the_last_time_gives_way_to_the_second_ocean(sea_file: Writer, hours: fl
 
 def test_at_once_without_a_distance(sea_file: Writer) -> None:
     behind = Ocean.analytic("uniform", **BEHIND)
-    ocean = Ocean.open(sea_file(), outside="climatology", climatology=behind, blend_km=0.0, blend_h=0.0)
+    ocean = Ocean.open(sea_file(), outside="climatology", climatology=behind, blend_km=0.0, blend_hours=0.0)
     assert ocean.at(START, *east_of_the_edge(500.0)).current_east == pytest.approx(0.7)
     assert ocean.at(START - 1.0, 12.5, 179.5).current_east == pytest.approx(0.7)
     assert ocean.at(START, *EDGE).current_east == pytest.approx(0.1)
@@ -185,9 +185,9 @@ def test_density_of_both_oceans_is_within_the_table(sea_file: Writer) -> None:
     ("options", "words"),
     [
         ({"climatology": "two_layer"}, ["climatology", 'outside_time = "climatology"']),
-        ({"outside": "climatology", "climatology": "atlantis"}, ["atlantis", "no such file"]),
+        ({"outside": "climatology", "climatology": "atlantis"}, ["atlantis: cannot be read: No such file"]),
         ({"outside": "climatology", "blend_km": -1.0}, ["blend_km = -1"]),
-        ({"outside": "climatology", "blend_h": float("nan")}, ["blend_h = nan"]),
+        ({"outside": "climatology", "blend_hours": float("nan")}, ["blend_hours = nan"]),
         ({"outside_time": "zero"}, ["outside_time = 'zero'", "error, hold, climatology"]),
     ],
 )

@@ -1,21 +1,18 @@
 """`stommel ocean` as its users run it; the examples of the guide run."""
 
-import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Command
 from tests.ocean.conftest import regular_sea
-
-GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "ocean.md"
+from tests.support.command import Command
+from tests.support.pages import blocks, commands, guide
+from tests.support.python import run_python
 
 
 def test_a_file(stommel: Command, arctic20: Path) -> None:
     found = stommel(
-        "ocean", "show", arctic20, "--at", "72,10", "--time", "2016-02-02T06:00:00", "--json", "--plot", "map"
+        "ocean", "show", arctic20, "--at", "72,10", "--time", "2016-02-02T06:00:00", "--json", "--plot", "map.png"
     )
     assert found.status == 0, found.err
     assert found.json["times"] == 5
@@ -24,7 +21,7 @@ def test_a_file(stommel: Command, arctic20: Path) -> None:
     assert "map projection" in found.json["notes"]["currents"]
     assert found.json["sample"]["bottom_m"] == pytest.approx(2500.0, abs=1000.0)
     assert 1020.0 < found.json["sample"]["density_kg_m3"] < 1035.0
-    assert [Path(name).name for name in found.json["plots"]] == ["map.png", "map.svg"]
+    assert found.json["written"] == ["map.png"]
 
 
 def test_terminal_fits_80_columns(stommel: Command) -> None:
@@ -40,7 +37,7 @@ def test_terminal_fits_80_columns(stommel: Command) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("nowhere.nc",), ["nowhere.nc", "cannot be read as NetCDF"]),
+        (("nowhere.nc",), ["nowhere.nc: cannot be read: No such file"]),
         (("atlantis",), ["atlantis", "neither an analytic ocean nor a file", "gyre"]),
         (("pool", "--set", "depth=4"), ["unknown parameter depth", "bottom_m"]),
         (("pool", "--set", "depth"), ["--set depth", "NAME=VALUE"]),
@@ -57,10 +54,10 @@ def test_terminal_fits_80_columns(stommel: Command) -> None:
         (("gyre", "--at", "0,0"), ["outside the ocean", "latitude 28"]),
         (("gyre", "--at", "0,0", "--outside", "zero"), ["outside = 'zero'", "hold"]),
         (("gyre", "--at", "0,0", "--climatology", "pool"), ["climatology: is only used with outside"]),
-        (("gyre", "--outside", "climatology", "--climatology", "no.nc"), ["no.nc", "no such file"]),
-        (("gyre", "--at", "0,0", "--plot", "map"), ["outside the ocean"]),
-        (("east_china_sea", "--plot", "map", "--depth", "3000"), ["its deepest bottom is at 1200 m"]),
-        (("gyre", "--plot", ""), ["--plot", "must name a picture"]),
+        (("gyre", "--outside", "climatology", "--climatology", "no.nc"), ["no.nc: cannot be read: No such file"]),
+        (("gyre", "--at", "0,0", "--plot", "map.png"), ["outside the ocean"]),
+        (("east_china_sea", "--plot", "map.png", "--depth", "3000"), ["its deepest bottom is at 1200 m"]),
+        (("gyre", "--plot", ""), ["--plot ''", "names no file"]),
         (("gyre", "--set", "=3"), ["--set =3", "NAME=VALUE"]),
         (("gyre", "pool"), ["an analytic ocean stands alone", "pool"]),
         (("gyre", "--bounds", "1,2,3,4"), ["--bounds: gyre is an analytic ocean"]),
@@ -69,7 +66,7 @@ def test_terminal_fits_80_columns(stommel: Command) -> None:
         (("sea.nc", "--bounds", "1,2,3,inf"), ["--bounds '1,2,3,inf'"]),
         (("sea.nc", "--between", "2016"), ["--between '2016'", "two times"]),
         (("sea_*.nc",), ["sea_*.nc", "no file matches"]),
-        (("folder/",), ["no such file"]),
+        (("folder/",), ["folder: cannot be read: No such file"]),
         (("..",), ["is a folder"]),
     ],
 )
@@ -115,7 +112,17 @@ def test_several_files_a_region_and_a_climatology(stommel: Command, tmp_path: Pa
 def test_a_profile(stommel: Command, tmp_path: Path) -> None:
     (tmp_path / "cast.csv").write_text("Z,temperature_c,salinity_psu\n0,28,33.8\n200,15,34.6\n")
     found = stommel(
-        "ocean", "show", "cast.csv", "--name", "depth_m=Z", "--set", "bottom_m=900", "--at", "28,126", "--plot", "cast"
+        "ocean",
+        "show",
+        "cast.csv",
+        "--name",
+        "depth_m=Z",
+        "--set",
+        "bottom_m=900",
+        "--at",
+        "28,126",
+        "--plot",
+        "cast.png",
     )
     assert found.status == 0, found.err
     assert "everywhere the same" in found.out
@@ -124,7 +131,7 @@ def test_a_profile(stommel: Command, tmp_path: Path) -> None:
 
 def test_a_plot_that_cannot_be_written(stommel: Command, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
-    found = stommel("ocean", "show", "two_layer", "--plot", "file/map")
+    found = stommel("ocean", "show", "two_layer", "--plot", "file/map.svg")
     assert found.status == 2
     assert "cannot be written" in found.err
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
@@ -133,22 +140,16 @@ def test_a_plot_that_cannot_be_written(stommel: Command, tmp_path: Path) -> None
 def test_examples_of_the_guide_run(stommel: Command, tmp_path: Path, arctic20: Path) -> None:
     (tmp_path / "arctic20.nc").symlink_to(arctic20)
     (tmp_path / "profile.csv").write_text("depth_m,temperature_c,salinity_psu\n0,28,33.8\n200,15,34.6\n")
-    text = GUIDE.read_text(encoding="utf-8")
-    commands = re.findall(r"^stommel (ocean .*)$", text, re.MULTILINE)
-    assert len(commands) == 3
-    for command in commands:
-        found = stommel(*command.split())
+    text = guide("ocean")
+    calls = commands(text, "ocean")
+    assert len(calls) == 3
+    for arguments in calls:
+        found = stommel(*arguments)
         assert found.status == 0, found.err
-    code = "\n".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL))
-    done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr
-    assert "kg/m3" in done.stdout
+    assert "kg/m3" in run_python("-c", "\n".join(blocks(text, "python")), folder=tmp_path)
 
 
 def test_the_front_door_stays_light() -> None:
     heavy = {"xarray", "netCDF4", "gsw", "pyproj", "dask", "pandas", "numba", "numpy"}
     code = f"import sys, stommel, stommel.cli.app, stommel.cli.ocean; print(sorted({heavy} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
+    assert run_python("-c", code).strip() == "[]"

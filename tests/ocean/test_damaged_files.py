@@ -75,7 +75,7 @@ def test_a_folder_a_text_and_nothing(tmp_path: Path) -> None:
     refused(tmp_path, "is a folder; name its files")
     (tmp_path / "text.nc").write_text("time,depth\n0,1\n")
     refused(tmp_path / "text.nc", "cannot be read as NetCDF")
-    refused(tmp_path / "missing.nc", "no such file")
+    refused(tmp_path / "missing.nc", "cannot be read: No such file or directory")
 
 
 def set_values(name: str, values: Any) -> Callable[[xr.Dataset], None]:

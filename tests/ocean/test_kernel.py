@@ -116,7 +116,7 @@ def test_north_and_scale_of_the_plane_are_its_derivatives(latitude: float) -> No
 
 def test_a_vehicle_that_crosses_the_pole_sees_one_current(tmp_path) -> None:
     """A current that is uniform in the plane at the pole stays so across it, in space, not in its components."""
-    from stommel.ocean.reading.build import Frame, Slot, ocean_grid
+    from stommel.ocean.kernel.building import Frame, Slot, ocean_grid
     from stommel.seawater.table import density_table
 
     x, y = np.meshgrid(np.linspace(-3e5, 3e5, 7), np.linspace(-3e5, 3e5, 7))

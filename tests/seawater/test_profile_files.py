@@ -49,12 +49,16 @@ def test_columns_of_other_names(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "columns", "words"),
     [
-        ("", None, "is empty"),
-        ("depth_m,temperature_c,salinity_psu\n", None, "no numbers"),
+        ("", None, "has no rows below a line of column names"),
+        ("depth_m,temperature_c,salinity_psu\n", None, "has no rows below a line of column names"),
         ("depth,temperature,salinity\n0,1,2\n", None, "no vertical column; add one of depth_m"),
         ("depth_m,temperature_c\n0,10\n", None, "no salinity column"),
-        ("depth_m,temperature_c,salinity_psu\n0,10,x\n", None, "line 2: salinity_psu = 'x'"),
-        ("depth_m,temperature_c,salinity_psu\n0,10,35\n\n5,10\n", None, "line 4: salinity_psu = ''"),
+        ("depth_m,temperature_c,salinity_psu\n0,10,x\n", None, "row 2: salinity_psu = 'x': must be a number"),
+        (
+            "depth_m,temperature_c,salinity_psu\n0,10,35\n\n5,10\n",
+            None,
+            "row 4: has 2 cells where the column names are 3",
+        ),
         ("depth_m,temperature_c,salinity_psu\n0,10,99\n", None, "salinity_psu = 99: must be between 0 and 42"),
         ("depth_m,temperature_c,salinity_psu\n0,nan,35\n", None, "temperature_c = nan"),
         ("depth_m,temperature_c,salinity_psu\n5,10,35\n5,10,35\n", None, "5 is followed by 5"),
@@ -71,5 +75,5 @@ def test_what_is_wrong_is_said(tmp_path: Path, text: str, columns: dict[str, str
 
 
 def test_no_file(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match="cannot be read"):
+    with pytest.raises(FileError, match=r"nothing\.csv: cannot be read: No such file or directory$"):
         read_stratification(tmp_path / "nothing.csv")

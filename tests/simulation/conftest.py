@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from stommel.control.dive_cycle import EVENTS, PHASES
-from stommel.planning.mission import Mission
+from stommel.control.dive_cycle import PHASES
 from stommel.simulation.flight import Flown, fly_mission
-from stommel.simulation.memory import EVENT_COLUMNS, SAMPLE_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
+from stommel.simulation.log import REASONS
+from stommel.simulation.plant.parameters import CONSUMERS
 from stommel.simulation.results.dataset import dataset_of, netcdf_bytes
 from stommel.simulation.scenario.loading import mission_from
+from stommel.simulation.scenario.mission import Mission
 
 Document = dict[str, Any]
 
@@ -66,25 +67,26 @@ def file_of(result: Flown) -> bytes:
 
 
 def column(result: Flown, name: str) -> Array:
-    """One column of the record."""
-    return np.asarray(result.record[:, STATE_COLUMNS.index(name)])
+    """One column of the record; `energy_pump` and its like are the account of one consumer."""
+    if name.startswith("energy_"):
+        return np.asarray(result.record["energy"][:, CONSUMERS.index(name.removeprefix("energy_"))])
+    return np.asarray(result.record[name])
 
 
 def sampled(result: Flown, name: str) -> Array:
     """One column of the CTD's samples."""
-    return np.asarray(result.samples[:, SAMPLE_COLUMNS.index(name)])
+    return np.asarray(result.samples[name])
 
 
 def surfaced(result: Flown, name: str) -> Array:
     """One column of the list of surfacings."""
-    return np.asarray(result.surfacings[:, SURFACING_COLUMNS.index(name)])
+    return np.asarray(result.surfacings[name])
 
 
 def events(result: Flown) -> list[tuple[float, str, str]]:
     """Time [s], phase that began, and reason of every event."""
-    names = ("time", "phase", "reason")
-    rows = result.events[:, [EVENT_COLUMNS.index(name) for name in names]]
-    return [(float(t), PHASES[int(phase)], EVENTS[int(reason)]) for t, phase, reason in rows]
+    rows = zip(*(result.events[name].tolist() for name in ("time", "phase", "reason")), strict=True)
+    return [(t, PHASES[int(phase)], REASONS[int(reason)]) for t, phase, reason in rows]
 
 
 def stays(result: Flown, phase: str) -> list[tuple[float, float]]:

@@ -8,13 +8,15 @@ from pathlib import Path
 
 import pytest
 
+from stommel.dynamics.packing import pack
 from stommel.errors import StommelError
 from stommel.simulation.scenario.loading import mission_from
-from tests.cli.conftest import Command, stommel
-from tests.ocean.conftest import Writer, arctic20, sea_file
+from stommel.vehicle import FULL, load_vehicle
+from tests.ocean.conftest import Writer, sea_file
 from tests.simulation.conftest import Document, flown, made, mission_document
+from tests.support.command import Command
 
-__all__ = ["arctic20", "sea_file", "stommel"]
+__all__ = ["sea_file"]
 
 DIVES: Document = {"depth_m": 100.0, "pitch_deg": 35.0, "speed_m_s": 0.35}
 
@@ -96,7 +98,7 @@ def arctic(path: Path, **changes: object) -> Document:
 
 
 def test_arctic_mission_is_accepted(arctic20: Path) -> None:
-    assert made(arctic(arctic20)).plan.duration_days == 2.0
+    assert made(arctic(arctic20)).scenario.duration_days == 2.0
 
 
 @pytest.mark.parametrize(
@@ -119,7 +121,7 @@ def test_place_and_time_in_a_file(arctic20: Path, changes: Document, words: list
 
 def test_file_that_holds_its_last_values_may_be_left_in_time(arctic20: Path) -> None:
     held = {"file": str(arctic20), "outside_time": "hold"}
-    assert made(arctic(arctic20, duration_days=30.0, ocean=held)).plan.ocean.outside_time == "hold"
+    assert made(arctic(arctic20, duration_days=30.0, ocean=held)).scenario.ocean.outside_time == "hold"
 
 
 def test_missing_ocean_file_is_named(tmp_path: Path) -> None:
@@ -206,3 +208,15 @@ def test_limit_on_the_size_of_files(plan: Path, tmp_path: Path) -> None:
     refused_in_one_line(done.returncode, done.stderr, "m.nc: cannot be written: File too large")
     assert (tmp_path / "m.nc").read_text() == "of an earlier mission"
     assert sorted(p.name for p in tmp_path.iterdir()) == ["m.nc", "plan.toml"]
+
+
+def test_trimming_for_a_mission_leaves_the_vehicle_file_as_it_is() -> None:
+    """Neutral half way down: the file's water keeps its density, the trim is a number of its own."""
+    trimmed = made(mission_document(ballasting={"neutral_depth_m": 50.0})).vehicle
+    zju = load_vehicle("zju")
+    assert trimmed.description == zju.description
+    assert trimmed.trimmed_for_kg_m3 is not None
+    assert trimmed.trimmed_for_kg_m3 != zju.neutral_density_kg_m3
+    water = made(mission_document()).ocean.at(made(mission_document()).scenario.start_seconds, 18.0, 116.0, 50.0)
+    hull = 1.0 - pack(zju, FULL).kappa * water.pressure + pack(zju, FULL).alpha_T * (water.temperature - 15.0)
+    assert trimmed.neutral_density_kg_m3 == pytest.approx(water.density * hull, rel=1e-6)

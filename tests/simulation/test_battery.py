@@ -32,20 +32,20 @@ def test_energy_out_of_the_battery_is_what_the_consumers_got(drained: Flown) -> 
 
 
 def test_voltage_solves_the_circuit(drained: Flown) -> None:
-    plant, t = drained.plant, column(drained, "time")
-    assert plant.resistance == 0.15
-    left = 1.0 - (spent(drained) + plant.self_discharge * t) / plant.whole_energy
-    E = np.interp(left, plant.charge, plant.open_voltage)
+    battery, t = drained.plant.battery, column(drained, "time")
+    assert battery.resistance == 0.15
+    left = 1.0 - (spent(drained) + battery.self_discharge * t) / battery.whole_energy
+    E = np.interp(left, battery.charge, battery.open_voltage)
     V = column(drained, "voltage")
     P = np.diff(spent(drained), prepend=0.0)
-    np.testing.assert_allclose(V**2 - E * V + plant.resistance * P, 0.0, atol=1e-6)
+    np.testing.assert_allclose(V**2 - E * V + battery.resistance * P, 0.0, atol=1e-6)
     assert (V > 0.5 * E).all()  # the branch that a battery is on
 
 
 def test_voltage_falls_with_charge_and_under_load(drained: Flown) -> None:
-    plant, V = drained.plant, column(drained, "voltage")
-    assert np.trapezoid(plant.open_voltage, plant.charge) == pytest.approx(24.0)
-    assert plant.whole_energy == pytest.approx(WHOLE)
+    battery, V = drained.plant.battery, column(drained, "voltage")
+    assert np.trapezoid(battery.open_voltage, battery.charge) == pytest.approx(24.0)
+    assert battery.whole_energy == pytest.approx(WHOLE)
     quiet = column(drained, "current") < np.median(column(drained, "current")) * 1.05
     tenths = np.array_split(V[quiet], 10)
     assert (np.diff([part.mean() for part in tenths]) < 0.0).all()

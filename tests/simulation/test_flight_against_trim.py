@@ -8,7 +8,6 @@ import pytest
 from stommel.analysis.trim import steady_flight
 from stommel.control.dive_cycle import ASCENT, DESCENT
 from stommel.simulation.flight import Flown
-from stommel.simulation.memory import STATE_COLUMNS
 from stommel.vehicle import PAPER
 from tests.simulation.conftest import QUIET, flown
 
@@ -32,7 +31,7 @@ def still() -> Flown:
 
 @pytest.mark.parametrize(("phase", "pitch_deg"), [(DESCENT, -PITCH), (ASCENT, PITCH)])
 def test_steady_glide_meets_the_trim(still: Flown, phase: int, pitch_deg: float) -> None:
-    column = {name: still.record[:, k] for k, name in enumerate(STATE_COLUMNS)}
+    column = still.record
     rows = np.flatnonzero(column["phase"] == phase)
     ends = np.flatnonzero(np.diff(rows) > 1)
     last = rows[ends[0]] - 1

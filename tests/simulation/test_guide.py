@@ -13,12 +13,10 @@ from typing import Any, get_args
 import pytest
 from pydantic import BaseModel
 
-from stommel.planning.mission import Mission
 from stommel.simulation.scenario.loading import load_mission, mission_from
-from stommel.simulation.scenario.mission_file import MissionFile
-from tests.cli.conftest import Command, stommel
-
-__all__ = ["stommel"]
+from stommel.simulation.scenario.mission import Mission
+from stommel.simulation.scenario.scenario_file import ScenarioFile
+from tests.support.command import Command
 
 DOCS = Path(__file__).parents[2] / "docs"
 GUIDE = (DOCS / "guide" / "missions.md").read_text(encoding="utf-8")
@@ -49,7 +47,7 @@ def mission(tmp_path: Path) -> Mission:
 
 
 def test_mission_file_is_accepted(mission: Mission) -> None:
-    assert mission.plan.duration_days == 3.0
+    assert mission.scenario.duration_days == 3.0
     assert mission.ocean.name == "east_china_sea"
 
 
@@ -63,7 +61,7 @@ def test_additions_are_accepted(addition: str) -> None:
     document, added = tomllib.loads(WHOLE), tomllib.loads(addition)
     for table, keys in added.items():
         document[table] = document.get(table, {}) | keys
-    plan = mission_from(document, "guide", Path()).plan
+    plan = mission_from(document, "guide", Path()).scenario
     for table, keys in added.items():
         for key, value in keys.items():
             found = getattr(getattr(plan, table), key)
@@ -80,7 +78,7 @@ def test_every_key_of_a_mission_file_has_a_meaning() -> None:
     """The guide's tables are generated from the schema; what has no docstring there needs a line in meanings.toml."""
     meanings = tomllib.loads((DOCS / "guide" / "meanings.toml").read_text(encoding="utf-8"))["mission"]
     undescribed = []
-    for name, table in tables_of(MissionFile):
+    for name, table in tables_of(ScenarioFile):
         body = ast.parse(inspect.getsource(table)).body[0]
         assert isinstance(body, ast.ClassDef)
         for before, after in zip(body.body, [*body.body[1:], ast.Pass()], strict=True):
@@ -95,7 +93,7 @@ def test_every_key_of_a_mission_file_has_a_meaning() -> None:
 
 def test_meanings_name_keys_that_there_are() -> None:
     meanings = tomllib.loads((DOCS / "guide" / "meanings.toml").read_text(encoding="utf-8"))["mission"]
-    known = {f"{name}.{key}".lstrip(".") for name, table in tables_of(MissionFile) for key in table.model_fields}
+    known = {f"{name}.{key}".lstrip(".") for name, table in tables_of(ScenarioFile) for key in table.model_fields}
     assert set(meanings) <= known
 
 

@@ -23,13 +23,13 @@ def half_day() -> Flown:
 
 def test_it_loads_as_it_is() -> None:
     mission = load_mission(mission_path("kuroshio"))
-    assert mission.plan.duration_days == 5.0
+    assert mission.scenario.duration_days == 5.0
     assert mission.ocean.name == "east_china_sea"
 
 
 def test_it_gets_away_towards_its_waypoint(half_day: Flown) -> None:
     """By more than half of its way through the water, and within 40 deg of the waypoint's bearing."""
-    place = half_day.mission.plan.waypoints[0]
+    place = half_day.mission.scenario.waypoints[0]
     longitude, latitude = np.degrees(column(half_day, "longitude")), np.degrees(column(half_day, "latitude"))
     geod = Geod(ellps="WGS84")
     flew, _, distance = geod.inv(longitude[0], latitude[0], longitude[-1], latitude[-1])

@@ -49,7 +49,7 @@ def test_water_in_the_hull_costs_buoyancy() -> None:
     for found in (tight, leaking):
         begin, end = stays(found, "ascent")[0]
         middle = round(0.5 * (begin + end))
-        speeds.append(float(np.linalg.norm(found.record[middle, 7:10])))
+        speeds.append(float(np.linalg.norm([column(found, name)[middle] for name in "uvw"])))
         leaked = rate * middle / 60.0
         oil = 1e6 * column(found, "ballast")[middle]
         assert oil == pytest.approx(1e6 * column(tight, "ballast")[middle], rel=1e-3)  # the engine does not see water

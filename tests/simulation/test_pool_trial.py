@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from stommel.simulation.flight import Flown, fly_mission
-from stommel.simulation.memory import STATE_COLUMNS
 from stommel.simulation.scenario.loading import mission_from
 from stommel.simulation.scenario.shipped import mission_path
 
@@ -26,7 +25,7 @@ def bare() -> Flown:
 
 def _range(flown: Flown, name: str) -> float:
     """Greatest difference of headings [deg]."""
-    heading = np.unwrap(flown.record[:, STATE_COLUMNS.index(name)])
+    heading = np.unwrap(flown.record[name])
     return float(np.degrees(np.ptp(heading)))
 
 
@@ -46,7 +45,7 @@ def test_shielding_ends_the_drift() -> None:
 
 
 def test_sawtooth_stays_off_the_bottom(bare: Flown) -> None:
-    depth = bare.record[:, STATE_COLUMNS.index("depth")]
+    depth = bare.record["depth"]
     assert 2.4 < depth.max() < 3.2
     assert len(bare.surfacings) >= 3
     assert bare.outcome == "time over"

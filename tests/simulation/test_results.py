@@ -41,7 +41,7 @@ def test_file_reads_back(dataset: xr.Dataset, tmp_path: Path) -> None:
 
 
 def test_mission_can_be_flown_again_from_its_file(dataset: xr.Dataset, quarter_day: Flown) -> None:
-    assert made(json.loads(dataset.attrs["mission"])).plan == quarter_day.mission.plan
+    assert made(json.loads(dataset.attrs["mission"])).scenario == quarter_day.mission.scenario
 
 
 def test_unwritable_folder_leaves_nothing(dataset: xr.Dataset, tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ def turning(goal_deg: float, **changes: object) -> Document:
 
 def error_deg(found: Flown) -> np.ndarray:
     """Heading less the bearing of the waypoint on the sphere, hardly changed by the way flown [deg]."""
-    place = found.mission.plan.waypoints[0]
+    place = found.mission.scenario.waypoints[0]
     a, b = np.radians(18.0), np.radians(place.latitude_deg)
     turn = np.radians(place.longitude_deg - 116.0)
     bearing = np.arctan2(np.sin(turn) * np.cos(b), np.cos(a) * np.sin(b) - np.sin(a) * np.cos(b) * np.cos(turn))
@@ -66,7 +66,7 @@ def test_noise_of_the_compass_does_not_wear_the_rudder(pitch: float) -> None:
     dives = {"depth_m": 180.0, "pitch_deg": pitch, "speed_m_s": 0.35}
     found = fly_mission(made(turning(90.0, dives=dives, sensors={})))
     assert worst(found, "ascent", 120.0) < 8.0
-    whole = sum(float(found.record[-1, k]) for k in range(found.record.shape[1] - 8, found.record.shape[1]))
+    whole = float(found.record["energy"][-1].sum())
     assert column(found, "energy_steering")[-1] < 0.05 * whole
 
 

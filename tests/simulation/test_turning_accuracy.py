@@ -20,7 +20,7 @@ def test_ten_times_smaller_steps_change_little(pitch: float) -> None:
         "dives": {"depth_m": 100.0, "pitch_deg": pitch, "speed_m_s": 0.35},
     }
     coarse = flown(**mission)
-    cut = coarse.mission.plan.integration
+    cut = coarse.mission.scenario.integration
     finer = {"steady_steps": 10 * cut.steady_steps, "moving_steps": 10 * cut.moving_steps}
     fine = flown(**mission, integration=finer)
     heading = np.unwrap(column(coarse, "heading"))

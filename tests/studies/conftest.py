@@ -1,13 +1,13 @@
-"""Short missions, and the command as a process of its own."""
+"""Short missions, and the command that flies many of them."""
 
-import json
 import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from tests.support.command import PROGRAM, run_here
 
 MISSION = """
 format = 1
@@ -69,9 +69,9 @@ def write(folder: Path) -> Write:
 
 
 def start(folder: Path, *arguments: object) -> subprocess.Popen[str]:
-    program = Path(sys.executable).with_name("stommel")
+    """Begin a study in a process of its own, to be interrupted."""
     return subprocess.Popen(
-        [program, "study", *map(str, arguments)],
+        [PROGRAM, "study", *map(str, arguments)],
         cwd=folder,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -81,17 +81,15 @@ def start(folder: Path, *arguments: object) -> subprocess.Popen[str]:
 
 def run(folder: Path, *arguments: object) -> Any:
     """JSON of a study that must succeed."""
-    process = start(folder, *arguments, "--json")
-    out, err = process.communicate(timeout=300)
-    assert process.returncode == 0, err
-    return json.loads(out)
+    done = run_here(folder, "study", *arguments, "--json")
+    assert done.status == 0, done.err
+    return done.json
 
 
 def refused(folder: Path, *arguments: object) -> str:
     """The one line of a study that must be refused."""
-    process = start(folder, *arguments)
-    _, err = process.communicate(timeout=300)
-    assert process.returncode == 2, err
-    lines = err.strip().splitlines()
-    assert len(lines) == 1, err
+    done = run_here(folder, "study", *arguments)
+    assert done.status == 2, done.err
+    lines = done.err.strip().splitlines()
+    assert len(lines) == 1, done.err
     return lines[0]

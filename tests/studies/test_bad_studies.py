@@ -2,12 +2,12 @@
 
 import resource
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from tests.studies.conftest import UNIFORM, Write, refused, run
+from tests.support.command import PROGRAM
 
 SWEEP = 'kind = "sweep"\n[[parameters]]\n'
 
@@ -98,9 +98,8 @@ def test_unknown_output_is_found_with_the_first_run(folder: Path, write: Write) 
 
 def limited(folder: Path, most_bytes: int, *arguments: object) -> str:
     """One line of a study whose files may not grow beyond a size: the same calls fail as on a full disk."""
-    program = Path(sys.executable).with_name("stommel")
     done = subprocess.run(
-        [program, "study", *map(str, arguments)],
+        [PROGRAM, "study", *map(str, arguments)],
         cwd=folder,
         capture_output=True,
         text=True,
@@ -134,6 +133,6 @@ def test_full_disk_leaves_nothing_half_written_and_the_study_goes_on(folder: Pat
 
 def test_unwritable_folder(folder: Path, write: Write) -> None:
     study = write('kind = "monte_carlo"\nruns = 3\n' + UNIFORM)
-    assert "hop.toml/r.nc.runs: cannot be written: Not a directory" in refused(
+    assert "--output hop.toml/r.nc: cannot be written: Not a directory" in refused(
         folder, study, "--output", "hop.toml/r.nc"
     )

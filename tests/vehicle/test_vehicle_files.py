@@ -133,13 +133,13 @@ class TestRefusals:
     def test_unknown_vehicle(self, tmp_path: Path) -> None:
         with pytest.raises(UnknownVehicleError, match="built-in: rogue, seawing, slocum, zju"):
             load_vehicle("zjoo")
-        with pytest.raises(UnknownVehicleError, match="is a folder"):
+        with pytest.raises(FileError, match=r"cannot be read: it is a folder$"):
             load_vehicle(tmp_path)
 
     def test_unreadable_file(self, tmp_path: Path) -> None:
         path = tmp_path / "latin.toml"
         path.write_bytes("name = 'Gleiter für'".encode("latin-1"))
-        with pytest.raises(FileError, match="cannot be read"):
+        with pytest.raises(FileError, match=r"cannot be read: it is not UTF-8 text: line 1 has the byte 0xfc$"):
             load_vehicle(path)
 
 
@@ -197,6 +197,19 @@ def test_no_value_crashes_the_loader(data: st.DataObject) -> None:
     value = data.draw(VALUES)
     with suppress(FileError):
         zju.with_value(key, value)  # type: ignore[arg-type]  # wrong on purpose
+
+
+@pytest.mark.parametrize(
+    "key", ["", ".", "mass", "rigid_body", "rigid_body.centre_of_mass_m", "rigid_body.centre_of_mass_m.3",
+            "rigid_body.centre_of_mass_m.-1", "rigid_body.centre_of_mass_m.²", "rigid_body.centre_of_mass_m.x",
+            "rigid_body.mass_kg.0", "name", f"rigid_body.centre_of_mass_m.{'9' * 5000}"],
+)  # fmt: skip
+def test_keys_of_no_number(key: str) -> None:
+    zju = load_vehicle("zju")
+    for ask in (zju.value, lambda key: zju.with_value(key, 1.0)):
+        with pytest.raises(FileError, match="no number of ZJU glider has this key") as caught:
+            ask(key)
+        assert len(str(caught.value)) < 600
 
 
 def test_unknown_lateral_plane_is_listed() -> None:

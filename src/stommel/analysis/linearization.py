@@ -64,6 +64,16 @@ class Linearization:
         A = self.whole.A
         return float(max(np.abs(A[LONGITUDINAL, LATERAL]).max(), np.abs(A[LATERAL, LONGITUDINAL]).max()))
 
+    def as_row(self) -> dict[str, object]:
+        """Matrices of the planes that are known, and the names of their states and inputs."""
+        planes = {"longitudinal": self.longitudinal} | ({} if self.lateral is None else {"lateral": self.lateral})
+        return {
+            "A": {plane: model.A.tolist() for plane, model in planes.items()},
+            "B": {plane: model.B.tolist() for plane, model in planes.items()},
+            "states": {plane: list(model.states) for plane, model in planes.items()},
+            "inputs": {plane: list(model.inputs) for plane, model in planes.items()},
+        }
+
 
 def is_stable(vehicle: Vehicle, flight: SteadyFlight, *, physics: Physics = PAPER) -> bool:
     """Whether small disturbances of `flight` die out; in the vertical plane alone where the lateral one is unknown."""

@@ -91,6 +91,13 @@ class Modes:
         """Whether every known mode dies out."""
         return all(mode.stable for mode in (*self.longitudinal, *(self.lateral or ())))
 
+    def as_row(self) -> dict[str, object]:
+        """The modes of each plane in words with units."""
+        return {
+            "longitudinal": [mode.as_row() for mode in self.longitudinal],
+            "lateral": [mode.as_row() for mode in self.lateral] if self.lateral is not None else None,
+        }
+
 
 def modes(linear: Linearization) -> Modes:
     """Name the modes of a linearised flight, plane by plane."""

@@ -24,6 +24,10 @@ class BestConditions:
     fastest: SteadyFlight
     """Greatest horizontal speed."""
 
+    def as_row(self) -> dict[str, object]:
+        """Both flights in words with units."""
+        return {"best_glide": self.best_glide.as_turn(), "fastest": self.fastest.as_turn()}
+
 
 def best_conditions(
     vehicle: Vehicle, *, ballast_ml: float, physics: Physics = PAPER, water: Water | None = None

@@ -6,6 +6,7 @@ the paper, in lengths of the sealed hull.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,7 @@ from stommel.analysis.linearization import Linearization, linearise
 from stommel.analysis.request import RequestError
 from stommel.analysis.trim import trim
 from stommel.errors import StommelError
-from stommel.files.sentences import unit_of
+from stommel.files.units import unit_of
 from stommel.vehicle import PAPER, Physics, Vehicle
 
 POSITIONS = {
@@ -50,6 +51,30 @@ class RootLocus:
     design_lateral: NDArray[np.complex128] | None
     speed_m_s: float
     pitch_deg: float
+
+    def as_json(self) -> dict[str, Any]:
+        """The locus in words with units, point by point."""
+        lateral = self.lateral
+        return {
+            "over": self.over,
+            "unit": self.unit,
+            "speed_m_s": self.speed_m_s,
+            "pitch_deg": self.pitch_deg,
+            "design_value": self.design_value,
+            "points": [
+                {
+                    "value": float(value),
+                    "longitudinal": _pairs(self.longitudinal[k]),
+                    "lateral": _pairs(lateral[k]) if lateral is not None else None,
+                    "authority": self.authorities[k].as_row(),
+                }
+                for k, value in enumerate(self.values)
+            ],
+        }
+
+
+def _pairs(eigenvalues: NDArray[np.complex128]) -> list[dict[str, float]]:
+    return [{"real": float(value.real), "imag": float(value.imag)} for value in eigenvalues]
 
 
 def root_locus(

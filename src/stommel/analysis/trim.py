@@ -96,6 +96,10 @@ class TrimRow:
     flight: SteadyFlight
     beyond: tuple[Excess, ...]
 
+    def as_row(self) -> dict[str, object]:
+        """The row in words with units."""
+        return {**self.flight.as_row(), "beyond_limits": [str(excess) for excess in self.beyond]}
+
 
 def trim_table(
     vehicle: Vehicle,

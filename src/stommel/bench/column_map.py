@@ -1,17 +1,18 @@
 """The column map of an engine log: which column holds which quantity, in which unit (a small TOML beside the CSV)."""
 
-import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, TypeVar
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from stommel.bench.failures import BenchFileError, BenchRequestError
+from stommel.bench.failures import BenchFileError, BenchRequestError, bench_files
 from stommel.bench.quantities import QUANTITIES
 from stommel.errors import Problem
-from stommel.files.provenance import Provenance, ProvenanceError, separate
-from stommel.files.sentences import sentences
+from stommel.files.opening import exists, require_regular
+from stommel.files.provenance import separate
+from stommel.files.sentences import validated
+from stommel.files.toml_reader import read_toml
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 NotNegativeNumber = Annotated[float, Field(strict=True, ge=0, allow_inf_nan=False)]
@@ -114,52 +115,7 @@ class EngineLogMap(MapTable):
     generated: Generated | None = None
 
 
-Model = TypeVar("Model", bound=BaseModel)
-
-
-def parse_toml(text: str, origin: str) -> tuple[dict[str, Any], dict[str, Provenance]]:
-    """Return the plain values of a TOML text, and the source or assumption of each number.
-
-    Raises
-    ------
-    BenchFileError
-        The text is no TOML, or a source is no text.
-    """
-    try:
-        return separate(tomllib.loads(text))
-    except (tomllib.TOMLDecodeError, ProvenanceError) as error:
-        raise BenchFileError([Problem(origin, "", f"is not usable: {error}")]) from error
-
-
-def validated(model: type[Model], document: Mapping[str, Any], origin: str) -> Model:
-    """Validate a parsed description.
-
-    Raises
-    ------
-    BenchFileError
-        One problem for each wrong key, with what is allowed.
-    """
-    try:
-        return model.model_validate(document)
-    except ValidationError as error:
-        raise BenchFileError([Problem(origin, key, text) for key, text in sentences(error, model)]) from None
-
-
-def read_description(path: Path) -> str:
-    """Text of a file that describes a bench test.
-
-    Raises
-    ------
-    BenchFileError
-        The file cannot be read.
-    """
-    try:
-        return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else f"is not UTF-8 text ({error.reason})"
-        raise BenchFileError([Problem(str(path), "", f"cannot be read: {reason}")]) from error
-
-
+@bench_files()
 def load_map(
     log: Path, map_file: Path | None = None, columns: Sequence[str] = (), constants: Sequence[str] = ()
 ) -> EngineLogMap:
@@ -177,25 +133,26 @@ def load_map(
     Raises
     ------
     BenchFileError
-        There is no map, or it is wrong.
+        There is no log or no map, or the map is wrong.
     BenchRequestError
         A column or constant is not written as it must be.
     """
+    require_regular(log)
     beside = log.with_suffix(".toml")
     given = _given(columns, constants)
     document: dict[str, Any] = {}
     origin = "--column"
-    if map_file is not None or beside.is_file():
+    if map_file is not None or exists(beside):
         path = map_file or beside
         origin = str(path)
-        document, _ = parse_toml(read_description(path), origin)
+        document, _ = separate(read_toml(path), origin)
     elif not given:
         raise BenchFileError(
             [Problem(str(log), "", f"no column map: write {beside}, or give --map, or --column quantity=column:unit")]
         )
     if isinstance(document.get("columns", {}), dict):
         document = document | {"columns": document.get("columns", {}) | given}
-    return validated(EngineLogMap, document, origin)
+    return validated(document, EngineLogMap, origin)
 
 
 def _given(columns: Sequence[str], constants: Sequence[str]) -> dict[str, Any]:

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.bench.column_map import Channel, EngineLogMap, load_map
-from stommel.bench.delimited import Delimited, read_delimited
-from stommel.bench.failures import refuse
+from stommel.bench.failures import bench_files, refuse
 from stommel.bench.log_checks import check_run
 from stommel.bench.quantities import MARKER, QUANTITIES
 from stommel.bench.raw_channel import RawChannel
+from stommel.files.delimited import Delimited, read_delimited
 
 Series = NDArray[np.float64]
 
@@ -59,6 +59,7 @@ class EngineLog:
         return MARKER in self.origin
 
 
+@bench_files()
 def read_engine_log(path: Path, column_map: EngineLogMap | None = None) -> EngineLog:
     """Read, convert and check an engine log.
 

@@ -1,5 +1,8 @@
 """Bench files that cannot be used, and requests that a good file cannot answer."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from stommel.errors import FileError, Problem, StommelError
 
 
@@ -9,6 +12,17 @@ class BenchFileError(FileError):
 
 class BenchRequestError(StommelError):
     """A question that these data or this model cannot answer."""
+
+
+@contextmanager
+def bench_files() -> Iterator[None]:
+    """Turn what is wrong with any file that is read inside into an error of bench files; also a decorator."""
+    try:
+        yield
+    except BenchFileError:
+        raise
+    except FileError as error:
+        raise BenchFileError(list(error.problems)) from None
 
 
 def refuse(file: str, column: str, message: str, row: int | None = None) -> BenchFileError:

@@ -7,11 +7,13 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from stommel.bench.column_map import parse_toml, read_description, validated
-from stommel.bench.delimited import Delimited, read_delimited
-from stommel.bench.failures import refuse
+from stommel.bench.failures import bench_files, refuse
 from stommel.bench.holding_description import HoldingDescription, PressureColumn
-from stommel.files.provenance import Provenance
+from stommel.files.delimited import Delimited, read_delimited
+from stommel.files.opening import exists, require_regular
+from stommel.files.provenance import Provenance, separate
+from stommel.files.sentences import validated
+from stommel.files.toml_reader import read_toml
 
 BUILTIN = "fan2013-table5"
 """Name of the table that ships with stommel."""
@@ -58,6 +60,7 @@ class PressureTest:
     """Source or assumption of each number of the description."""
 
 
+@bench_files()
 def read_pressure_test(name_or_path: str | Path, description: Path | None = None) -> PressureTest:
     """Read a table of holds.
 
@@ -72,18 +75,19 @@ def read_pressure_test(name_or_path: str | Path, description: Path | None = None
     Raises
     ------
     BenchFileError
-        A column is missing, a time or pressure impossible, a pressure rises in a hold, or holds overlap; the error
-        names file, column, row and value.
+        A file cannot be read, a column is missing, a time or pressure impossible, a pressure rises in a hold, or holds
+        overlap; the error names file, column, row and value.
     """
     path = Path(name_or_path)
     if str(name_or_path) == BUILTIN:
         path = Path(str(resources.files("stommel.bench.examples") / f"{BUILTIN}.csv"))
-    beside = description or path.with_suffix(".toml")
     document: dict[str, Any] = {}
     provenance: dict[str, Provenance] = {}
-    if description is not None or beside.is_file():
-        document, provenance = parse_toml(read_description(beside), str(beside))
-    described = validated(HoldingDescription, document, str(beside))
+    require_regular(path)
+    beside = description or path.with_suffix(".toml")
+    if description is not None or exists(beside):
+        document, provenance = separate(read_toml(beside), str(beside))
+    described = validated(document, HoldingDescription, str(beside))
     table = read_delimited(path, described.delimiter)
     name = path.name if str(name_or_path) == BUILTIN else str(path)
     return PressureTest(name, table.comments, _holds(table, described), described, provenance)
@@ -92,23 +96,24 @@ def read_pressure_test(name_or_path: str | Path, description: Path | None = None
 def _holds(table: Delimited, described: HoldingDescription) -> tuple[Hold, ...]:
     columns, limits = described.columns, described.limits
     names = table.cells(columns.hold)
+    begin_cells, end_cells = table.cells(columns.begin), table.cells(columns.end)
     begins, ends = (_clock_times(table, column) for column in (columns.begin, columns.end))
     first, last = (_pressures(table, column) for column in (columns.begin_pressure, columns.end_pressure))
     holds: list[Hold] = []
     for k, line in enumerate(table.lines):
         begin = begins[k]
         if holds:
-            begin = _after(table, columns.begin, line, holds[-1], begins[k], limits.longest_pause_h)
+            begin = _after(table, columns.begin, line, holds[-1], begins[k], limits.longest_pause_hours)
         duration = (ends[k] - begins[k]) % _DAY
-        written = f"{table.cells(columns.begin)[k]} to {table.cells(columns.end)[k]}"
+        written = f"{begin_cells[k]} to {end_cells[k]}"
         if duration == 0.0:
             raise refuse(table.file, columns.end, f"{written}: the hold lasts no time, or a whole day", line)
-        if duration > limits.longest_hold_h * 3600:
+        if duration > limits.longest_hold_hours * 3600:
             raise refuse(
                 table.file,
                 columns.end,
                 f"{written}: ends before it begins, or lasts {duration / 3600:.4g} h across midnight; at most "
-                f"{limits.longest_hold_h:g} h are allowed (limits.longest_hold_h)",
+                f"{limits.longest_hold_hours:g} h are allowed (limits.longest_hold_hours)",
                 line,
             )
         hold = Hold(names[k], begin, begin + duration, first[k], last[k])
@@ -124,15 +129,16 @@ def _holds(table: Delimited, described: HoldingDescription) -> tuple[Hold, ...]:
     return tuple(holds)
 
 
-def _after(table: Delimited, column: str, line: int, before: Hold, clock: float, longest_pause_h: float) -> float:
+def _after(table: Delimited, column: str, line: int, before: Hold, clock: float, longest_pause_hours: float) -> float:
     """Time of a clock reading after the hold before, the next day if need be."""
     pause = (clock - before.end) % _DAY
-    if pause > longest_pause_h * 3600:
+    if pause > longest_pause_hours * 3600:
         raise refuse(
             table.file,
             column,
             f"{_clock(clock)} comes before the end of hold {before.name} at {_clock(before.end)}: the holds overlap "
-            f"or are out of order (or {pause / 3600:.4g} h lie between; limits.longest_pause_h = {longest_pause_h:g})",
+            f"or are out of order (or {pause / 3600:.4g} h lie between; "
+            f"limits.longest_pause_hours = {longest_pause_hours:g})",
             line,
         )
     return before.end + pause

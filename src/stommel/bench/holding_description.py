@@ -1,8 +1,8 @@
 """Description of a hull pressure test: columns, limits and the compliance of what is under pressure (TOML)."""
 
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from stommel.bench.column_map import MapTable, NotNegativeNumber, PositiveNumber
 from stommel.bench.quantities import QUANTITIES
@@ -44,9 +44,9 @@ class HoldingLimits(MapTable):
     """Each hold loses less than this. Default: section 5.1.1 of the paper."""
     lowest_pressure_mpa: PositiveNumber = 2.0
     """Pressure stays above this. Default: section 5.1.1 of the paper."""
-    longest_hold_h: PositiveNumber = 12.0
+    longest_hold_hours: PositiveNumber = 12.0
     """A hold that would last longer, counted across midnight, is a slip of the pen."""
-    longest_pause_h: PositiveNumber = 12.0
+    longest_pause_hours: PositiveNumber = 12.0
     """The same between two holds."""
 
 
@@ -95,7 +95,7 @@ class HoldingDescription(MapTable):
 
     format: Literal[1] = 1
     title: str = "Hull pressure test"
-    delimiter: str = ","
+    delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
     columns: HoldingColumns = HoldingColumns()
     limits: HoldingLimits = HoldingLimits()
     chamber: Chamber | None = None

@@ -37,7 +37,7 @@ class HoldResult:
             "from": _clock(h.begin),
             "to": _clock(h.end),
             "across_midnight": h.begin // 86400 != h.end // 86400,
-            "duration_h": h.duration / 3600,
+            "duration_hours": h.duration / 3600,
             "begin_pressure_mpa": h.begin_pressure / 1e6,
             "end_pressure_mpa": h.end_pressure / 1e6,
             "loss_mpa": h.loss / 1e6,

@@ -78,6 +78,19 @@ class SpeedChoice:
     margin: float
     """Consumptions within this share count as equal."""
 
+    def as_row(self) -> dict[str, object]:
+        """Words and units for JSON; no speed where none is fast enough."""
+        return {
+            "motor_speed_rpm": None if self.chosen is None else self.chosen.motor_speed * 60 / (2 * pi),
+            "reason": self.reason(),
+            "time_limit_s": self.limit.longest,
+            "inflate_ml": self.limit.volume * 1e6,
+            "limit_pressure_mpa": self.limit.pressure / 1e6,
+            "margin_percent": self.margin * 100,
+            "pressures_mpa": [P / 1e6 for P in self.pressures],
+            "candidates": [one.as_row() for one in self.candidates],
+        }
+
     def reason(self) -> str:
         """Say in one sentence why this speed."""
         volume, longest = f"{self.limit.volume * 1e6:g} ml", f"{self.limit.longest:g} s"

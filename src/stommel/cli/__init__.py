@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from typing import NoReturn
 
-USAGE_ERROR, DEFECT, INTERRUPTED = 2, 1, 130
+from stommel.cli.status import DEFECT, INTERRUPTED, USAGE_ERROR
 
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 """Why an answer cannot be written to standard output."""

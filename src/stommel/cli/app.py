@@ -14,6 +14,7 @@ from stommel.cli import (
     endurance,
     engine,
     envelope,
+    flight_table,
     hull,
     modes,
     ocean,
@@ -61,6 +62,7 @@ app.command("table")(table.table)
 app.command("steady")(steady.steady)
 app.command("turn")(turn.turn)
 app.command("envelope")(envelope.envelope)
+app.command("flight-table")(flight_table.flight_table)
 app.command("modes")(modes.modes)
 app.command("root-locus")(root_locus.root_locus)
 app.command("derivative")(derivative.derivative)

@@ -1,14 +1,15 @@
 """`stommel budget`: masses and volumes bay by bay, trim weight and foam, reserve of the buoyancy engine."""
 
 from pathlib import Path
-from textwrap import fill
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stommel.cli.options import JsonOption, VehicleArgument, load
-from stommel.cli.output import WIDTH, number, show_json, show_table, show_values
-from stommel.errors import OutputError, StommelError
+from stommel.cli.finish import finish
+from stommel.cli.options import ForceOption, JsonOption, VehicleArgument, load
+from stommel.cli.output import number, show_table, show_values, show_warnings
+from stommel.cli.paths import PlotOption, file_parser, refuse_existing
+from stommel.errors import StommelError
 
 if TYPE_CHECKING:
     from stommel.design.budget import BudgetStudy, Reserve, Trimming
@@ -24,20 +25,23 @@ def budget(
     ] = None,
     foam_density: Annotated[float, typer.Option("--foam-density", help="Density of foam to add [kg/m3].")] = 200.0,
     apply: Annotated[
-        Path | None, typer.Option("--apply", help="Vehicle file to write, whose rigid body comes from the budget.")
+        Path | None,
+        typer.Option(
+            "--apply",
+            metavar="FILE",
+            parser=file_parser("--apply", ".toml"),
+            help="Vehicle file to write, whose rigid body comes from the budget.",
+        ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
-    plot: Annotated[
-        Path | None, typer.Option("--plot", help="Plot to write as PNG and SVG, without its ending.")
-    ] = None,
+    force: ForceOption = False,
+    plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Sum masses and volumes; find trim weight and foam, and what the buoyancy engine has left in a sea area.
 
     Example: stommel budget zju --density 1010:1027
     """
-    if apply is not None and apply.exists() and not force:
-        raise OutputError(f"{apply}: already exists; --force replaces it")
+    refuse_existing(apply, force)
     from stommel.design.budget import budget_study
 
     glider = load(vehicle)
@@ -46,20 +50,16 @@ def budget(
     if apply is not None:
         from stommel.design.budget import applied_text
         from stommel.files.whole import write_whole
+        from stommel.vehicle import vehicle_text
 
-        write_whole(apply, applied_text(study, _text(vehicle)))
+        write_whole(apply, applied_text(study, vehicle_text(vehicle)))
         written.append(apply)
     if plot is not None:
         from stommel.design.budget.figure import budget_figure
-        from stommel.figures.saving import save_figure
+        from stommel.figures.saving import save_figure_as
 
-        written += save_figure(budget_figure(study), plot)
-    if as_json:
-        show_json(_as_json(study, written))
-        return
-    _show(study)
-    for path in written:
-        typer.echo(f"wrote {path}")
+        written.append(save_figure_as(budget_figure(study), plot))
+    finish(study, written, as_json, _show)
 
 
 def _density(text: str | None) -> float | tuple[float, float] | None:
@@ -74,12 +74,6 @@ def _density(text: str | None) -> float | tuple[float, float] | None:
     if len(values) == 2:
         return values[0], values[1]
     raise StommelError(f"--density = {text!r}: must be a number or a range like 1010:1027, in kg/m3")
-
-
-def _text(vehicle: str) -> str:
-    from stommel.vehicle import builtin_names, builtin_text
-
-    return builtin_text(vehicle) if vehicle in builtin_names() else Path(vehicle).read_text(encoding="utf-8")
 
 
 def _show(study: "BudgetStudy") -> None:
@@ -119,8 +113,7 @@ def _show(study: "BudgetStudy") -> None:
         _show_trimming(study.trimming)
     if study.reserve is not None:
         _show_reserve(study.reserve)
-    for warning in study.warnings:
-        typer.echo(fill(f"warning: {warning}", WIDTH, subsequent_indent="  "))
+    show_warnings(study.warnings)
 
 
 def _vector(r: Any) -> str:
@@ -162,88 +155,3 @@ def _show_reserve(left: "Reserve") -> None:
         band = "{:.2f} to {:.2f} kg/m3".format(*left.flies)
         notes.append(f"flies at {left.design_speed:g} m/s both ways from {band}")
     show_table("Reserve of the buoyancy engine", columns, rows, notes)
-
-
-def _numbers(values: Any) -> list[float]:
-    return [float(value) for value in values]
-
-
-def _as_json(study: "BudgetStudy", written: list[Path]) -> dict[str, Any]:
-    found, trimmed, left = study.budget, study.trimming, study.reserve
-    return {
-        "vehicle": study.vehicle.name,
-        "density_kg_m3": list(study.density),
-        "total_mass_kg": found.total.mass,
-        "displaced_volume_ml": found.volume * 1e6,
-        "centre_of_mass_m": _numbers(found.total.centre),
-        "centre_of_buoyancy_m": _numbers(found.centre_of_buoyancy),
-        "stability_arm_mm": found.stability_arm * 1e3,
-        "neutral_density_kg_m3": found.neutral_density,
-        "bays": [
-            {
-                "name": bay.name,
-                "flooded": bay.flooded,
-                "parts": [part.name for part in bay.parts],
-                "mass_kg": bay.mass.mass,
-                "displaced_volume_ml": bay.volume * 1e6,
-                "centre_of_mass_m": _numbers(bay.mass.centre) if bay.parts else None,
-            }
-            for bay in found.bays
-        ],
-        "rigid_body": {
-            "mass_kg": found.rigid_body.mass,
-            "centre_of_mass_m": _numbers(found.rigid_body.centre),
-            "lowest_possible_centre_m": study.highest_lever,
-            "inertia_kg_m2": [_numbers(row) for row in found.rigid_body.inertia],
-            "file_sum_with_water_kg_m2": [_numbers(row) for row in study.inertia.file_sum],
-            "left_for_water_kg_m2": [_numbers(row) for row in study.inertia.left_for_water],
-            "spheroid_added_inertia_kg_m2": None if study.inertia.spheroid is None else list(study.inertia.spheroid),
-        },
-        "moving_mass_kg": found.moving.mass,
-        "ballast_kg": found.ballast.mass,
-        "trimming": None
-        if trimmed is None
-        else {
-            "density_kg_m3": trimmed.rho,
-            "surplus_buoyancy_kg": trimmed.surplus,
-            "moment_kg_m": list(trimmed.moment),
-            "added": [
-                {
-                    "material": body.material,
-                    "part": body.part or None,
-                    "bay": body.bay,
-                    "mass_kg": body.mass,
-                    "volume_ml": body.volume * 1e6,
-                    "position_m": list(body.position),
-                }
-                for body in trimmed.added
-            ],
-            "mass_kg": trimmed.mass,
-            "displaced_volume_ml": trimmed.volume * 1e6,
-            "stability_arm_mm": trimmed.stability_arm * 1e3,
-        },
-        "reserve": None if left is None else _reserve_json(left),
-        "warnings": [{"name": warning.name, "message": warning.message} for warning in study.warnings],
-        "written": [str(path) for path in written],
-    }
-
-
-def _reserve_json(left: "Reserve") -> dict[str, Any]:
-    return {
-        "trimmed_for_kg_m3": left.trimmed_for,
-        "compression_ml": left.compression * 1e6,
-        "sinks_and_rises_kg_m3": left.sinks_and_rises,
-        "design_speed_m_s": left.design_speed,
-        "flies_kg_m3": left.flies,
-        "rows": [
-            {
-                "density_kg_m3": row.rho,
-                "neutral_ballast_ml": row.neutral * 1e6,
-                "to_sink_ml": row.to_dive * 1e6,
-                "to_rise_ml": row.to_climb * 1e6,
-                "dive_speed_m_s": row.dive_speed,
-                "climb_speed_m_s": row.climb_speed,
-            }
-            for row in left.rows
-        ],
-    }

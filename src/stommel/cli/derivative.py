@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
+from stommel.cli.finish import finish
 from stommel.cli.options import PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
-from stommel.cli.output import show_json
 
 
 class ActuatorChoice(StrEnum):
@@ -41,4 +41,4 @@ def derivative(
     found = accelerations_of(
         glider, read_states(states), free=actuators is ActuatorChoice.free, physics=physics_of(physics)
     )
-    show_json(found)
+    finish(found, None, True, lambda _: None)

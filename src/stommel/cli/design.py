@@ -6,18 +6,29 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
-from stommel.cli.output import show_json, show_table, show_values
+from stommel.cli.output import show_notes, show_table, show_values
+from stommel.cli.paths import file_parser
 
 if TYPE_CHECKING:
     from stommel.design.study import DesignStudy
+
+
+_REPORT = file_parser("--output", ".html")
 
 
 def design(
     vehicle: VehicleArgument = "zju",
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="Report to write; VEHICLE-design.html in this folder if left out."),
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            parser=_REPORT,
+            help="Report to write, .html; VEHICLE-design.html in this folder if left out.",
+        ),
     ] = None,
     physics: PhysicsOption = PhysicsChoice.paper,
     report: Annotated[bool, typer.Option("--report/--no-report", help="Write the HTML report.")] = True,
@@ -30,18 +41,15 @@ def design(
     from stommel.design.study import design_study
 
     glider = load(vehicle)
-    path = output or Path(f"{Path(vehicle).stem}-design.html")
+    path = (output or _REPORT(f"{Path(vehicle).stem}-design.html")) if report else None
     study = design_study(glider, physics=physics_of(physics), progress=_progress(as_json))
-    if report:
-        from stommel.design.report import write_report
+    written = []
+    if path is not None:
+        from stommel.report import write_report
 
         write_report(study, path)
-    if as_json:
-        show_json(_as_json(study, path if report else None))
-        return
-    _show(study)
-    if report:
-        typer.echo(f"report: {path}")
+        written.append(path)
+    finish(study, written, as_json, _show)
 
 
 def _progress(quiet: bool) -> Any:
@@ -75,10 +83,10 @@ def _show(study: "DesignStudy") -> None:
     flight = study.design_flight
     title = f"Modes at {flight.V:g} m/s, pitch {degrees(flight.theta):g} deg"
     show_table(title, ["mode", "real\n1/s", "imaginary\n1/s", "time to half\ns"], rows)
-    for note in study.notes:
-        show_values("Note", {"": note})
-    for part, reason in study.unanswered:
-        show_values("Not answered", {part: reason})
+    show_notes(study.notes, "note")
+    if study.unanswered:
+        parts = ", ".join(part for part, _ in study.unanswered)
+        show_notes([f"{parts}: the report and --json say why"], "not answered")
 
 
 def _verdict(study: "DesignStudy") -> dict[str, str]:
@@ -101,37 +109,3 @@ def _verdict(study: "DesignStudy") -> dict[str, str]:
         tightest = study.turns[-1]
         values["tightest turn computed"] = f"radius {tightest.radius:.1f} m at {degrees(tightest.turn_rate):.2f} deg/s"
     return values
-
-
-def _as_json(study: "DesignStudy", path: Path | None) -> dict[str, Any]:
-    from dataclasses import asdict
-
-    return {
-        "vehicle": study.vehicle.name,
-        "specification": [asdict(row) for row in study.specification],
-        "tables": [
-            {
-                "title": table.title,
-                "rows": [
-                    row.trim.flight.as_row()
-                    | {
-                        "beyond_limits": [str(excess) for excess in row.trim.beyond],
-                        "published": asdict(row.published) if row.published is not None else None,
-                    }
-                    for row in table.rows
-                ],
-            }
-            for table in study.tables
-        ],
-        "envelope": [row.as_row() for row in study.envelope] if study.envelope is not None else None,
-        "ranges": study.ranges.as_row() if study.ranges is not None else None,
-        "best_glide": study.best.best_glide.as_turn() if study.best is not None else None,
-        "fastest": study.best.fastest.as_turn() if study.best is not None else None,
-        "longitudinal": [mode.as_row() for mode in study.modes.longitudinal],
-        "lateral": [mode.as_row() for mode in study.modes.lateral] if study.modes.lateral is not None else None,
-        "authority": study.authority.as_row(),
-        "turns": [flight.as_turn() for flight in study.turns],
-        "notes": list(study.notes),
-        "unanswered": dict(study.unanswered),
-        "report": str(path) if path is not None else None,
-    }

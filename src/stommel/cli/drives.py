@@ -1,18 +1,17 @@
 """`stommel drives`: what the drives of moving mass and rudder do at every attitude, and what they cost."""
 
 from math import degrees
-from pathlib import Path
-from textwrap import fill
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, VehicleArgument, load
-from stommel.cli.output import WIDTH, number, show_json, show_table, show_values
+from stommel.cli.output import number, show_table, show_values, show_warnings
+from stommel.cli.paths import PlotOption
 
 if TYPE_CHECKING:
     from stommel.design.drives import DriveStudy, PitchStudy, RudderStudy
-    from stommel.machinery.drives import PitchPoint
 
 
 def drives(
@@ -29,35 +28,31 @@ def drives(
         float | None, typer.Option("--rudder", help="Rudder angle of a turn [deg]; its travel if left out.")
     ] = None,
     hold: Annotated[float, typer.Option("--hold", help="Time that the rudder is held over [s].")] = 60.0,
-    plot: Annotated[
-        Path | None, typer.Option("--plot", help="Plot to write as PNG and SVG, without its ending.")
-    ] = None,
+    plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Size the drives: speed, torque, self-locking, limit switches, time and energy of a trim change and of a turn.
 
-    Example: stommel drives zju --plot build/zju-drives
+    Example: stommel drives zju --plot build/zju-drives.png
     """
     from stommel.design.drives import drive_study
 
     study = drive_study(load(vehicle), steepest_deg=steepest, speed_m_s=speed, rudder_deg=rudder, hold_s=hold)
-    written: list[Path] = []
+    written = []
     if plot is not None:
         from stommel.design.drives.figure import drives_figure
-        from stommel.figures.saving import save_figure
+        from stommel.figures.saving import save_figure_as
 
-        written = save_figure(drives_figure(study), plot)
-    if as_json:
-        show_json(_as_json(study, written))
-        return
+        written.append(save_figure_as(drives_figure(study), plot))
+    finish(study, written, as_json, _show)
+
+
+def _show(study: "DriveStudy") -> None:
     if study.pitch is not None:
         _show_pitch(study.vehicle.name, study.pitch)
     if study.rudder is not None:
         _show_rudder(study.vehicle.name, study.rudder)
-    for warning in study.warnings:
-        typer.echo(fill(f"warning: {warning}", WIDTH, subsequent_indent="  "))
-    for path in written:
-        typer.echo(f"wrote {path}")
+    show_warnings(study.warnings)
 
 
 def _show_pitch(name: str, study: "PitchStudy") -> None:
@@ -137,96 +132,3 @@ def _show_rudder(name: str, study: "RudderStudy") -> None:
             f"brake 2 x {turn.brake_per_release:.1f}, {turn.hold:g} s hold {turn.hold_energy:.1f}"
         )
     show_values(f"{name}: rudder drive", values)
-
-
-def _as_json(study: "DriveStudy", written: list[Path]) -> dict[str, Any]:
-    return {
-        "vehicle": study.vehicle.name,
-        "pitch": _pitch_json(study.pitch) if study.pitch else None,
-        "rudder": _rudder_json(study.rudder) if study.rudder else None,
-        "warnings": [{"name": warning.name, "message": warning.message} for warning in study.warnings],
-        "plots": [str(path) for path in written],
-    }
-
-
-def _point_json(point: "PitchPoint") -> dict[str, Any]:
-    energy = point.energy_per_metre
-    return {
-        "pitch_deg": round(degrees(point.theta), 9),
-        "direction": "forward" if point.direction > 0 else "aft",
-        "uphill": point.uphill,
-        "load_n": point.load,
-        "torque_mnm": point.motor.torque * 1e3,
-        "current_a": point.motor.current,
-        "speed_mm_s": point.speed * 1e3,
-        "power_w": point.motor.power,
-        "energy_j_per_mm": None if energy is None else energy / 1e3,
-        "starting_torque_mnm": point.starting_torque * 1e3,
-        "stall_margin": _finite(point.stall_margin),
-        "starts": point.starts,
-    }
-
-
-def _pitch_json(study: "PitchStudy") -> dict[str, Any]:
-    drive = study.drive
-    threads = {"screw": drive.screw, "worm": drive.worm}
-    return {
-        "efficiency": drive.efficiency,
-        "self_locking": drive.self_locking,
-        **{
-            name: None
-            if thread is None
-            else {
-                "efficiency": thread.efficiency,
-                "back_driving_efficiency": thread.back_driving_efficiency,
-                "self_locking": thread.self_locking,
-            }
-            for name, thread in threads.items()
-        },
-        "speed_mm_s": None if study.speed is None else study.speed * 1e3,
-        "file_speed_mm_s": None if study.file_speed is None else study.file_speed * 1e3,
-        "hardest_start": _point_json(study.worst_start),
-        "dive_to_climb": study.dive_to_climb.as_row() if study.dive_to_climb else None,
-        "climb_to_dive": study.climb_to_dive.as_row() if study.climb_to_dive else None,
-        "over_runs": [
-            {
-                "end": "forward" if run.direction > 0 else "aft",
-                "switch_mm": run.switch * 1e3,
-                "stop_mm": run.stop * 1e3,
-                "run_on_mm": _finite(run.run_on * 1e3),
-                "caught": run.caught,
-                "stall_thrust_n": run.stall_thrust,
-                "stall_current_a": run.stall_current,
-            }
-            for run in study.over_runs
-        ],
-        "points": [_point_json(point) for point in study.points],
-    }
-
-
-def _rudder_json(study: "RudderStudy") -> dict[str, Any]:
-    turn = study.turn
-    return {
-        "speed_through_water_m_s": study.V,
-        "hinge_moment_mnm": study.hinge_moment * 1e3,
-        "full_step": study.full_step.as_row() if study.full_step else None,
-        "speed_deg_s": None if study.speed is None else degrees(study.speed),
-        "file_speed_deg_s": None if study.file_speed is None else degrees(study.file_speed),
-        "holding_margin": None if study.holding_margin is None else _finite(study.holding_margin),
-        "turn": None
-        if turn is None
-        else {
-            "angle_deg": degrees(turn.angle),
-            "hold_s": turn.hold,
-            "energy_j": turn.energy,
-            "motor_energy_j": turn.out.energy + turn.back.energy,
-            "brake_energy_j": turn.brake_energy,
-            "brake_energy_per_release_j": turn.brake_per_release,
-            "hold_energy_j": turn.hold_energy,
-        },
-    }
-
-
-def _finite(value: float) -> float | None:
-    """JSON has no infinity."""
-    return None if value == float("inf") else value

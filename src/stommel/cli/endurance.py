@@ -1,12 +1,13 @@
 """`stommel endurance`: how long and how far one charge lasts, and what it rests on."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
-from stommel.cli.output import number, show_json, show_table, show_values
+from stommel.cli.output import counted, number, show_table, show_values
+from stommel.cli.paths import PlotOption
 
 if TYPE_CHECKING:
     from stommel.design.endurance import BestFlight, EnergyStudy, Gap, Sensitivity
@@ -27,9 +28,7 @@ def endurance(
         float | None, typer.Option("--temperature", help="Temperature of the water [deg C]; water.temperature_c.")
     ] = None,
     physics: PhysicsOption = PhysicsChoice.paper,
-    plot: Annotated[
-        Path | None, typer.Option("--plot", help="Write the plots as PNG and SVG to this path without its ending.")
-    ] = None,
+    plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Energy of a dive by part, endurance, range, best flights, and what each assumption is worth.
@@ -46,18 +45,13 @@ def endurance(
         temperature_c=temperature,
         physics=physics_of(physics),
     )
-    written: list[Path] = []
+    written = []
     if plot is not None:
         from stommel.design.endurance.figure import endurance_figure
-        from stommel.figures.saving import save_figure
+        from stommel.figures.saving import save_figure_as
 
-        written = save_figure(endurance_figure(study), plot)
-    if as_json:
-        show_json(study.as_row() | {"plots": [str(path) for path in written]})
-        return
-    _show(study)
-    for path in written:
-        typer.echo(f"wrote {path}")
+        written.append(save_figure_as(endurance_figure(study), plot))
+    finish(study, written, as_json, _show)
 
 
 def _show(study: "EnergyStudy") -> None:
@@ -75,13 +69,13 @@ def _show_answer(study: "EnergyStudy") -> None:
     wanted = result.wanted
     asked = ""
     if study.target_days is not None:
-        asked = f"; {study.target_days:g} days asked: {'met' if study.gap is None else 'NOT MET'}"
+        asked = f"; {counted(study.target_days, 'day')} asked: {'met' if study.gap is None else 'NOT MET'}"
     minutes = float(cycle.duration_s) / 60.0
     show_values(
         f"{study.vehicle.name}: dives to {wanted.depth_m:g} m at {wanted.speed_m_s:g} m/s, "
         f"pitch {wanted.pitch_deg:g} deg",
         {
-            "endurance": f"{result.days:.1f} days{asked}",
+            "endurance": f"{counted(number(result.days, 1), 'day')}{asked}",
             "range": f"{result.range_m / 1e3:.0f} km in still water",
             "dives": f"{result.dives:.0f} of {minutes:.1f} minutes, {float(cycle.surface_s):.0f} s at the surface",
             "mean power": f"{result.mean_power_w:.2f} W",
@@ -142,11 +136,12 @@ def _show_gap(gap: "Gap") -> None:
     ]
     end = "Together they reach it." if gap.closed else "All of them together do not reach it."
     show_table(
-        f"{gap.target_days:g} days allow {gap.allowed_power_w:.2f} W: {gap.missing_power_w:.2f} W too much\n"
+        f"{counted(gap.target_days, 'day allows', 'days allow')} {gap.allowed_power_w:.2f} W: "
+        f"{gap.missing_power_w:.2f} W too much\n"
         "Assumptions at their favourable ends, one upon the other",
         ["assumption", "is", "taken as", "days"],
         rows,
-        [end, *alone, ""],
+        [end, *alone],
     )
 
 
@@ -165,7 +160,7 @@ def _show_sensitivity(study: "EnergyStudy") -> None:
         "Sensitivity: assumptions by 30 %, numbers with a source by 10 %",
         ["number", "value", "elasticity", "days"],
         [row(one) for one in study.sensitivities[:MOST_SHOWN]],
-        [f"{len(study.sensitivities) - MOST_SHOWN} more with --json." if len(study.sensitivities) > MOST_SHOWN else ""],
+        [f"{len(study.sensitivities) - MOST_SHOWN} more with --json."] if len(study.sensitivities) > MOST_SHOWN else [],
     )
 
 

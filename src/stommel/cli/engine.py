@@ -1,18 +1,16 @@
 """`stommel engine`: a cycle of the buoyancy engine under sea pressure."""
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, VehicleArgument, load
-from stommel.cli.output import number, show_json, show_table, show_values
-from stommel.errors import OutputError
+from stommel.cli.output import number, show_notes, show_table, show_values
+from stommel.cli.paths import PlotOption
 
 if TYPE_CHECKING:
-    from stommel.machinery.engine import EngineRun, PhaseResult
-
-SAMPLES = 121
+    from stommel.machinery.engine import EngineRun
 
 
 def engine(
@@ -29,9 +27,7 @@ def engine(
     other: Annotated[
         str | None, typer.Option("--engine", help="Another engine: an example's name, or a file with a table [engine].")
     ] = None,
-    plot: Annotated[
-        Path | None, typer.Option("--plot", help="Write the courses over time to this file, as PNG and SVG.")
-    ] = None,
+    plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Simulate the hydraulic circuit: inflate, hold, deflate.
@@ -61,13 +57,14 @@ def engine(
         from stommel.machinery.engine import stall_pressure
 
         stall = stall_pressure(named.engine, motor_speed_rpm=motor_speed)
-    written = _plotted(run, plot) if plot is not None else []
-    if as_json:
-        show_json(_as_json(run, stall, written))
-        return
-    _show(run, stall)
-    for path in written:
-        typer.echo(f"wrote {path}")
+    written = []
+    if plot is not None:
+        from stommel.design.engine.engine_plot import engine_figure
+        from stommel.figures.saving import save_figure_as
+
+        written.append(save_figure_as(engine_figure(run), plot))
+    answer = run.as_json() | {"stall_pressure_mpa": stall / 1e6 if stall is not None else None}
+    finish(answer, written, as_json, lambda _: _show(run, stall))
 
 
 def _wanted(what: str, volume_ml: float | None) -> float:
@@ -79,55 +76,6 @@ def _wanted(what: str, volume_ml: float | None) -> float:
     if not volume_ml > 0.0:
         raise EngineRequestError(f"{what} = {volume_ml:g} ml: must be greater than 0")
     return volume_ml / 1e6
-
-
-def _plotted(run: "EngineRun", path: Path) -> list[Path]:
-    from stommel.design.engine.engine_plot import engine_figure
-    from stommel.figures.saving import save_figure
-
-    if not path.name:
-        raise OutputError(f"{path}: cannot be written: it is a folder")
-    stem = path.with_suffix("") if path.suffix in (".png", ".svg") else path
-    return save_figure(engine_figure(run), stem)
-
-
-def _as_json(run: "EngineRun", stall_pa: float | None, written: list[Path]) -> dict[str, Any]:
-    """The first phase at the top, all phases in a list."""
-    return {
-        "engine": run.name,
-        "pressure_mpa": run.pressure_pa / 1e6,
-        "ideal": run.ideal,
-        **_phase_json(run.phases[0]),
-        "stalled": run.stalled,
-        "stall_pressure_mpa": stall_pa / 1e6 if stall_pa is not None else None,
-        "oil_residual": run.oil_residual,
-        "lowest_pressure_mpa": run.lowest_pressure_pa / 1e6,
-        "phases": [{"phase": phase.name, **_phase_json(phase)} for phase in run.phases],
-        "events": [{"t_s": t, "event": name} for t, name in run.events],
-        "courses": run.courses.sampled(SAMPLES),
-        "plots": [str(path) for path in written],
-    }
-
-
-def _phase_json(phase: "PhaseResult") -> dict[str, Any]:
-    return {
-        "outcome": phase.outcome.value,
-        "duration_s": phase.duration_s,
-        "volume_ml": phase.moved_m3 * 1e6,
-        "energy_j": phase.energy_j,
-        "peak_current_a": phase.peak_current_a,
-        "peak_supply_current_a": phase.peak_supply_current_a,
-        "pump_efficiency": phase.efficiency,
-        "volumetric_efficiency": phase.volumetric_efficiency,
-        "energy_per_mm_j": phase.energy_per_mm,
-        "piston_begin_mm": phase.piston_m[0] * 1e3,
-        "piston_end_mm": phase.piston_m[1] * 1e3,
-        "sea_work_j": phase.sea_work_j,
-        "hull_gas_work_j": phase.hull_gas_work_j,
-        "stored_j": phase.stored_j,
-        "losses_j": phase.losses_j,
-        "energy_residual": phase.energy_residual,
-    }
 
 
 def _show(run: "EngineRun", stall_pa: float | None) -> None:
@@ -155,8 +103,7 @@ def _show(run: "EngineRun", stall_pa: float | None) -> None:
     }
     ledger |= {f"lost: {name.replace('_', ' ')}": joules for name, joules in phase.losses_j.items() if joules > 0.0}
     show_values(f"Where the energy of the phase {phase.name!r} goes", {k: number(v, 1, "J") for k, v in ledger.items()})
-    for note in _notes(run, stall_pa):
-        typer.echo(f"note: {note}")
+    show_notes(_notes(run, stall_pa), "note")
 
 
 def _notes(run: "EngineRun", stall_pa: float | None) -> list[str]:

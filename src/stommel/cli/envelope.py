@@ -5,9 +5,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from stommel.cli.finish import finish
 from stommel.cli.numbers import numbers
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
-from stommel.cli.output import number, show_json, show_table, show_values
+from stommel.cli.output import number, show_table, show_values
 from stommel.errors import StommelError
 
 if TYPE_CHECKING:
@@ -51,28 +52,29 @@ def envelope(
             f"{glider.name}: its file has neither [actuators.buoyancy], to see what is reached, nor [specification], "
             "to see what is needed; give a wanted region with --speed and --pitch"
         )
-    if as_json:
-        show_json(
-            {
-                "reach": [row.as_row() for row in reach] if reach is not None else None,
-                "needs": needs.as_row() if needs is not None else None,
-                "best_glide": best.best_glide.as_turn() if best is not None else None,
-                "fastest": best.fastest.as_turn() if best is not None else None,
-            }
-        )
-        return
-    if reach is not None:
-        _show_reach(glider.name, reach)
-    if best is not None:
-        _show_best(best)
-    if needs is not None:
-        _show_needs(needs)
+    answer = {
+        "reach": [row.as_row() for row in reach] if reach is not None else None,
+        "needs": needs.as_row() if needs is not None else None,
+        **(best.as_row() if best is not None else {"best_glide": None, "fastest": None}),
+    }
+    finish(answer, None, as_json, lambda _: _show(glider.name, reach, best, needs))
 
 
 def _specifies(glider: "Vehicle") -> bool:
     """Whether the specification says which flights it wants."""
     spec = glider.description.specification
     return bool(spec and spec.speed_m_s and spec.design_speed_m_s and spec.design_pitch_deg)
+
+
+def _show(
+    name: str, reach: "list[EnvelopeRow] | None", best: "BestConditions | None", needs: "RangesNeeded | None"
+) -> None:
+    if reach is not None:
+        _show_reach(name, reach)
+    if best is not None:
+        _show_best(best)
+    if needs is not None:
+        _show_needs(needs)
 
 
 def _show_reach(name: str, reach: "list[EnvelopeRow]") -> None:

@@ -5,8 +5,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, VehicleArgument, load
-from stommel.cli.output import number, show_json, show_table, show_values
+from stommel.cli.output import number, show_notes, show_table, show_values, show_warnings
+from stommel.cli.paths import PlotOption
 
 if TYPE_CHECKING:
     from stommel.design.hull.sizing import SizedHull
@@ -26,9 +28,7 @@ def hull(
         float | None, typer.Option("--wall", help="Wall to judge [mm] instead of the one that is needed.")
     ] = None,
     materials_file: Annotated[Path | None, typer.Option("--materials", help="TOML file of further materials.")] = None,
-    plot: Annotated[
-        Path | None, typer.Option("--plot", help="Write PNG and SVG of this name: pressures against wall.")
-    ] = None,
+    plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Size the pressure hull: walls by Eqs. (8)-(10), mass, collapse depth by every criterion, ranked choice.
@@ -41,18 +41,14 @@ def hull(
         load(vehicle), materials=material, depth_m=depth, pressure_mpa=pressure, wall_mm=wall,
         materials_file=materials_file,
     )  # fmt: skip
-    plots = []
+    written = []
     if plot is not None:
         from stommel.design.hull.plot import hull_figure
-        from stommel.figures.saving import save_figure
+        from stommel.figures.saving import save_figure_as
 
-        plots = [str(path) for path in save_figure(hull_figure(study), plot.with_suffix(""))]
-    if as_json:
-        show_json(study.as_row() | {"plots": plots})
-        return
-    _show(study, own=study.own is not None and not material and wall is None)
-    for path in plots:
-        typer.echo(f"plot: {path}")
+        written.append(save_figure_as(hull_figure(study), plot))
+    own = study.own is not None and not material and wall is None
+    finish(study, written, as_json, lambda study: _show(study, own=own))
 
 
 def _show(study: "HullStudy", *, own: bool) -> None:
@@ -60,16 +56,13 @@ def _show(study: "HullStudy", *, own: bool) -> None:
     _show_criteria(study.own if own and study.own is not None else study.hulls[0], own)
     reasons = {f"{row.place}. {row.hull.material.name}": row.reasons for row in study.ranking}
     typer.echo("Why in this order")
-    for name, lines in reasons.items():
-        typer.echo(_wrapped(f"{name}: " + "; ".join(line.rstrip(".") for line in lines)))
+    show_notes(f"{name}: " + "; ".join(line.rstrip(".") for line in lines) for name, lines in reasons.items())
     if study.choice:
-        typer.echo(_wrapped(study.choice[0].upper() + study.choice[1:]))
+        show_notes([study.choice[0].upper() + study.choice[1:]])
     if study.published:
         _show_published(study)
-    for note in study.requirement.notes:
-        typer.echo(_wrapped(f"note: {note}"))
-    for warning in study.warnings:
-        typer.echo(_wrapped(f"WARNING {warning.name}: {warning.text}"))
+    show_notes(study.requirement.notes, "note")
+    show_warnings(study.warnings)
 
 
 def _show_materials(study: "HullStudy") -> None:
@@ -146,13 +139,5 @@ def _show_published(study: "HullStudy") -> None:
         ]
         for row in study.published
     ]
-    remarks = [_wrapped(f"{row.material}, {row.quantity}: {row.remark}") for row in study.published if not row.agrees]
+    remarks = [f"{row.material}, {row.quantity}: {row.remark}" for row in study.published if not row.agrees]
     show_table("Table 4 of the paper", ["material", "quantity", "printed", "found", "difference"], rows, remarks)
-
-
-def _wrapped(text: str) -> str:
-    from textwrap import fill
-
-    from stommel.cli.output import WIDTH
-
-    return fill(text, WIDTH, initial_indent="  ", subsequent_indent="    ")

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+from stommel.cli.finish import finish
 from stommel.cli.options import (
     JsonOption,
     PhysicsChoice,
@@ -12,10 +13,10 @@ from stommel.cli.options import (
     load,
     physics_of,
 )
-from stommel.cli.output import number, show_json, show_table, show_values
+from stommel.cli.output import number, show_table, show_values
 
 if TYPE_CHECKING:
-    from stommel.analysis import Authority, Mode
+    from stommel.analysis import Authority, Mode, Modes
 
 
 def modes(
@@ -37,24 +38,12 @@ def modes(
     flight = trim(glider, speed_m_s=speed, pitch_deg=pitch, physics=switches)
     linear = linearise(glider, flight, physics=switches)
     found, able = find_modes(linear), authority(linear)
-    models = {"longitudinal": linear.longitudinal}
-    if linear.lateral is not None:
-        models["lateral"] = linear.lateral
-    if as_json:
-        show_json(
-            {
-                "longitudinal": [mode.as_row() for mode in found.longitudinal],
-                "lateral": [mode.as_row() for mode in found.lateral] if found.lateral is not None else None,
-                "A": {plane: model.A.tolist() for plane, model in models.items()},
-                "B": {plane: model.B.tolist() for plane, model in models.items()},
-                "states": {plane: list(model.states) for plane, model in models.items()},
-                "inputs": {plane: list(model.inputs) for plane, model in models.items()},
-                "authority": able.as_row(),
-                "flight": flight.as_row(),
-            }
-        )
-        return
-    _show_plane(f"{glider.name}: longitudinal modes (u, w, q, theta)", found.longitudinal)
+    answer = found.as_row() | linear.as_row() | {"authority": able.as_row(), "flight": flight.as_row()}
+    finish(answer, None, as_json, lambda _: _show(glider.name, found, able))
+
+
+def _show(name: str, found: "Modes", able: "Authority") -> None:
+    _show_plane(f"{name}: longitudinal modes (u, w, q, theta)", found.longitudinal)
     if found.lateral is None:
         show_values(
             "Lateral-directional modes", {"not known": "the sources of this vehicle give no lateral coefficients"}

@@ -26,6 +26,8 @@ PhysicsOption = Annotated[
 ]
 SpeedOption = Annotated[float, typer.Option("--speed", help="Speed along the path [m/s].")]
 PitchOption = Annotated[float, typer.Option("--pitch", help="Pitch [deg]; negative dives.")]
+IgnoreLimitsOption = Annotated[bool, typer.Option("--ignore-limits", help="Answer even beyond the actuators' limits.")]
+ForceOption = Annotated[bool, typer.Option("--force", help="Replace an existing file.")]
 
 
 def load(name: str) -> "Vehicle":

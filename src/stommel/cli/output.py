@@ -1,8 +1,7 @@
-"""How results look in a terminal, and as JSON."""
+"""How results look in a terminal: tables, named values, notes and warnings, all within its width."""
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -11,11 +10,6 @@ if TYPE_CHECKING:
 
 WIDTH = 80
 """Tables fit into a terminal of this many columns."""
-
-
-def show_json(value: Any) -> None:
-    """Print `value` as JSON; numbers keep all their digits."""
-    typer.echo(json.dumps(value, indent=2, allow_nan=False, ensure_ascii=False))
 
 
 def show_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]], notes: Iterable[str] = ()) -> None:
@@ -30,21 +24,51 @@ def show_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]
         table.add_column(column, justify="left" if text else "right", overflow="fold")
     for row in rows:
         table.add_row(*row)
-    console = _console()
-    console.print(table)
-    for note in notes:
-        console.print(note)
+    _console().print(table)
+    show_notes(notes)
 
 
 def show_values(title: str, values: Mapping[str, str], notes: Iterable[str] = ()) -> None:
-    """Print named values, one a line."""
+    """Print named values, one a line; what a line does not hold goes on below the value."""
     console = _console()
     console.print(title, style="bold")
     width = max(len(name) for name in values)
     for name, value in values.items():
-        console.print(f"  {name:<{width}}  {value}")
+        typer.echo(_filled(value, f"  {name:<{width}}  ", " " * (width + 4), console.width))
+    show_notes(notes)
+
+
+def show_entries(title: str, entries: Iterable[tuple[str, str]]) -> None:
+    """Print entries of two lines: what it is, and below it what there is to say about it."""
+    console = _console()
+    console.print(title, style="bold")
+    for entry, about in entries:
+        typer.echo(_filled(entry, "", "  ", console.width))
+        typer.echo(_filled(about, "    ", "    ", console.width))
+
+
+def show_notes(notes: Iterable[str], label: str = "") -> None:
+    """Print notes, each a paragraph whose further lines are indented, after a `label` such as "note"."""
+    width = _console().width
     for note in notes:
-        console.print(note)
+        typer.echo(_filled(note, f"{label}: " if label else "", "  ", width))
+
+
+def show_warnings(warnings: Iterable[object]) -> None:
+    """Print warnings, all verbs in the same words."""
+    show_notes((str(warning) for warning in warnings), "warning")
+
+
+def _filled(text: str, first: str, further: str, width: int) -> str:
+    """Wrap a text between words; a key or a path is never broken."""
+    from textwrap import fill
+
+    filled = (
+        fill(line, width, initial_indent=first if i == 0 else further, subsequent_indent=further,
+             break_long_words=False, break_on_hyphens=False)
+        for i, line in enumerate(text.splitlines() or [""])
+    )  # fmt: skip
+    return "\n".join(line or first.rstrip() for line in filled)
 
 
 def _console() -> "Console":
@@ -63,6 +87,12 @@ def number(value: float | None, digits: int, unit: str = "") -> str:
     if float(text) == 0.0:
         text = text.lstrip("-")
     return f"{text} {unit}".rstrip()
+
+
+def counted(count: str | float, one: str, many: str = "") -> str:
+    """A number with its noun: 1 day, 2 days, 11.7 days."""
+    text = count if isinstance(count, str) else f"{count:.12g}"
+    return f"{text} {one if text == '1' else many or f'{one}s'}"
 
 
 def _is_text(cell: str) -> bool:

@@ -1,12 +1,13 @@
 """`stommel root-locus`: how the modes move as one number of the design changes."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
-from stommel.cli.output import number, show_json, show_table
+from stommel.cli.output import number, show_table
+from stommel.cli.paths import PlotOption
 
 if TYPE_CHECKING:
     import numpy as np
@@ -30,18 +31,12 @@ def root_locus(
     speed: Annotated[float, typer.Option("--speed", help="Speed along the path [m/s].")] = 0.4,
     pitch: Annotated[float, typer.Option("--pitch", help="Pitch [deg].")] = -35.0,
     physics: PhysicsOption = PhysicsChoice.paper,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output", "-o", help="Plot without its ending; VEHICLE-root-locus-OVER in this folder if left out."
-        ),
-    ] = None,
-    plot: Annotated[bool, typer.Option("--plot/--no-plot", help="Write the plot as PNG and SVG.")] = True,
+    plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Follow the eigenvalues, with the trim solved anew at each value, as in Figs. 3 and 4 of the paper.
 
-    Example: stommel root-locus zju --over wing_position --from 0 --to 0.2
+    Example: stommel root-locus zju --over wing_position --from 0 --to 0.2 --plot build/locus.svg
     """
     from stommel.analysis import root_locus as follow
 
@@ -49,44 +44,13 @@ def root_locus(
     locus = follow(
         glider, over, start, stop, points=points, speed_m_s=speed, pitch_deg=pitch, physics=physics_of(physics)
     )
-    written: list[Path] = []
-    if plot:
-        from stommel.design.plots import root_locus_figure
-        from stommel.figures.saving import save_figure
+    written = []
+    if plot is not None:
+        from stommel.figures.saving import save_figure_as
+        from stommel.report.plots import root_locus_figure
 
-        stem = output or Path(f"{Path(vehicle).stem}-root-locus-{over}")
-        written = save_figure(root_locus_figure(locus), stem)
-    if as_json:
-        show_json(_as_json(locus, written))
-        return
-    _show(glider.name, locus)
-    for path in written:
-        typer.echo(f"wrote {path}")
-
-
-def _pairs(values: "np.ndarray[Any, Any]") -> list[dict[str, float]]:
-    return [{"real": float(value.real), "imag": float(value.imag)} for value in values]
-
-
-def _as_json(locus: "RootLocus", written: list[Path]) -> dict[str, Any]:
-    lateral = locus.lateral
-    return {
-        "over": locus.over,
-        "unit": locus.unit,
-        "speed_m_s": locus.speed_m_s,
-        "pitch_deg": locus.pitch_deg,
-        "design_value": locus.design_value,
-        "points": [
-            {
-                "value": float(value),
-                "longitudinal": _pairs(locus.longitudinal[k]),
-                "lateral": _pairs(lateral[k]) if lateral is not None else None,
-                "authority": locus.authorities[k].as_row(),
-            }
-            for k, value in enumerate(locus.values)
-        ],
-        "plots": [str(path) for path in written],
-    }
+        written.append(save_figure_as(root_locus_figure(locus), plot))
+    finish(locus, written, as_json, lambda locus: _show(glider.name, locus))
 
 
 def _show(name: str, locus: "RootLocus") -> None:

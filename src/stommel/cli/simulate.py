@@ -8,15 +8,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stommel.cli import INTERRUPTED
+from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption
-from stommel.cli.output import number, show_json, show_table, show_values
+from stommel.cli.output import counted, number, show_table, show_values
+from stommel.cli.paths import PlotsOption, file_parser
+from stommel.cli.status import INTERRUPTED
+from stommel.errors import OutputError
 
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn
 
-    from stommel.planning.mission import Mission
     from stommel.simulation.flight import Flown
+    from stommel.simulation.scenario.mission import Mission
 
 _FIRST_DAYS = 0.02
 """Flown once before the time is taken, so that compiling and loading are not in it."""
@@ -28,11 +31,13 @@ def simulate(
     mission: Annotated[
         str | None, typer.Argument(metavar="MISSION", help="A mission file, or a shipped mission (see --list).")
     ] = None,
-    output: Annotated[Path | None, typer.Option("--output", metavar="FILE.nc", help="NetCDF file to write.")] = None,
-    plots: Annotated[
+    output: Annotated[
         Path | None,
-        typer.Option("--plots", metavar="FOLDER", help="Folder for pictures (PNG, SVG) and an interactive page."),
+        typer.Option(
+            "--output", metavar="FILE", parser=file_parser("--output", ".nc"), help="NetCDF file to write, .nc."
+        ),
     ] = None,
+    plots: PlotsOption = None,
     seed: Annotated[
         int | None, typer.Option("--seed", min=0, help="Of every random draw; the mission file's if left out.")
     ] = None,
@@ -51,6 +56,8 @@ def simulate(
         return
     if mission is None:
         raise typer.BadParameter("give a mission file or a shipped mission; --list shows these", param_hint="MISSION")
+    if output is not None and output == plots:
+        raise OutputError(f"--output {output}: is the folder of --plots as well")
     from stommel.simulation.results.summary import summary
     from stommel.simulation.scenario.loading import load_mission
     from stommel.simulation.scenario.shipped import mission_path
@@ -65,27 +72,18 @@ def simulate(
     row["speed_up"] = None if seconds is None else row["days"] * 86400.0 / seconds
     with _interruptible("while writing; the files that are there are whole"):
         written = _write(flown, output, plots)
-    if as_json:
-        show_json(row | {"written": [str(path) for path in written]})
-        return
-    _show(row)
-    for path in written:
-        typer.echo(f"wrote {path}")
+    finish(row, written, as_json, _show)
 
 
 def _list(as_json: bool) -> None:
     from stommel.simulation.scenario.shipped import shipped_missions
 
-    names = shipped_missions()
-    if as_json:
-        show_json(names)
-        return
-    show_values("Shipped missions", names)
+    finish(shipped_missions(), None, as_json, lambda names: show_values("Shipped missions", names))
 
 
 def _with_seed(mission: "Mission", seed: int) -> "Mission":
-    plan = mission.plan.model_copy(update={"seed": seed})
-    return replace(mission, plan=plan, document=dict(mission.document) | {"seed": seed})
+    scenario = mission.scenario.model_copy(update={"seed": seed})
+    return replace(mission, scenario=scenario, document=dict(mission.document) | {"seed": seed})
 
 
 @contextmanager
@@ -106,8 +104,8 @@ def _fly(mission: "Mission", timed: bool) -> tuple["Flown", float | None]:
 
     with _progress(mission) as progress:
         if timed:
-            first = min(_FIRST_DAYS, mission.plan.duration_days)
-            fly_mission(replace(mission, plan=mission.plan.model_copy(update={"duration_days": first})))
+            first = min(_FIRST_DAYS, mission.scenario.duration_days)
+            fly_mission(replace(mission, scenario=mission.scenario.model_copy(update={"duration_days": first})))
         began = perf_counter()
         flown = fly_mission(mission, progress=progress)
         return flown, perf_counter() - began if timed else None
@@ -122,7 +120,7 @@ def _progress(mission: "Mission") -> Iterator[Callable[[float], None]]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
 
-    plan = mission.plan
+    plan = mission.scenario
     console = Console(stderr=True)
     columns = (TextColumn("{task.fields[date]}"), BarColumn(bar_width=None), TextColumn("{task.percentage:>3.0f} %"),
                _speed_column())  # fmt: skip
@@ -177,14 +175,14 @@ def _write(flown: "Flown", output: Path | None, plots: Path | None) -> list[Path
 def _show(row: dict[str, Any]) -> None:
     values = {
         "outcome": row["outcome"],
-        "time": f"{_duration(row['days'])}, {row['dives']} dives, deepest {row['deepest_m']:.1f} m",
+        "time": f"{_duration(row['days'])}, {counted(row['dives'], 'dive')}, deepest {row['deepest_m']:.1f} m",
         "distance": _distances(row),
         "seed": str(row["seed"]),
     }
     if row["energy_wh"] is not None:
         values["battery"] = (
             f"{row['battery_left_wh']:.4g} of {row['battery_wh']:.4g} Wh left ({row['battery_left_share']:.0%}): "
-            f"{row['days_left']:.1f} days at the mean {row['mean_power_w']:.2f} W"
+            f"{counted(number(row['days_left'], 1), 'day')} at the mean {row['mean_power_w']:.2f} W"
         )
         values["voltage"] = f"{row['battery_end_v']:.2f} V at the end, {row['battery_least_v']:.2f} V at least"
     if row["reckoning_error_m"] is not None:
@@ -192,7 +190,7 @@ def _show(row: dict[str, Any]) -> None:
         values["navigation"] = f"off by {error['mean']:.0f} m on surfacing (mean), {error['greatest']:.0f} m at most"
         values["current"] = f"depth mean off by {miss['mean']:.4f} m/s (mean), {miss['greatest']:.4f} m/s at most"
     if row["ctd_samples"]:
-        values["CTD"] = f"{row['ctd_samples']} samples"
+        values["CTD"] = counted(row["ctd_samples"], "sample")
     if row["speed_up"] is not None:
         values["speed"] = f"{row['speed_up']:,.0f} times real time, flown in {row['flight_s']:.3g} s"
     values["events"] = ", ".join(f"{name}: {count}" for name, count in row["events"].items()) or "none"
@@ -204,8 +202,8 @@ def _show(row: dict[str, Any]) -> None:
 def _duration(days: float) -> str:
     """A time in the unit that reads well."""
     if days < 0.1:
-        return f"{days * 1440.0:.3g} minutes"
-    return f"{days * 24.0:.3g} hours" if days < 2.0 else f"{days:.4g} days"
+        return counted(f"{days * 1440.0:.3g}", "minute")
+    return counted(f"{days * 24.0:.3g}", "hour") if days < 2.0 else counted(f"{days:.4g}", "day")
 
 
 def _distances(row: dict[str, Any]) -> str:

@@ -1,11 +1,20 @@
 """`stommel steady`: the flight that actuator settings give."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
-from stommel.cli.output import number, show_json, show_values
+from stommel.cli.finish import finish
+from stommel.cli.options import (
+    IgnoreLimitsOption,
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
+from stommel.cli.output import number, show_values
 
 if TYPE_CHECKING:
     from stommel.analysis.flight import SteadyFlight
@@ -25,9 +34,7 @@ def steady(
         float, typer.Option("--roll-mass-deg", help="Moving mass about the hull [deg]; positive swings it to port.")
     ] = 0.0,
     physics: PhysicsOption = PhysicsChoice.paper,
-    ignore_limits: Annotated[
-        bool, typer.Option("--ignore-limits", help="Answer even beyond the actuators' limits.")
-    ] = False,
+    ignore_limits: IgnoreLimitsOption = False,
     as_json: JsonOption = False,
 ) -> None:
     """Find the steady flight, straight or turning, that settings give.
@@ -46,34 +53,35 @@ def steady(
         physics=physics_of(physics),
         within_limits=not ignore_limits,
     )
-    show_turn("steady flight of these settings", glider, flight, physics_of(physics), as_json)
+    finish_turn("steady flight of these settings", glider, flight, physics_of(physics), as_json)
 
 
-def show_turn(title: str, glider: "Vehicle", flight: "SteadyFlight", physics: "Physics", as_json: bool) -> None:
-    """Print a straight or turning flight, and whether the vehicle stays in it by itself."""
+def finish_turn(title: str, glider: "Vehicle", flight: "SteadyFlight", physics: "Physics", as_json: bool) -> None:
+    """End with a straight or turning flight, and whether the vehicle stays in it by itself."""
     from stommel.analysis.linearization import is_stable
 
-    row, stable = flight.as_turn(), is_stable(glider, flight, physics=physics)
-    if as_json:
-        show_json(row | {"stable": stable})
-        return
+    row = flight.as_turn() | {"stable": is_stable(glider, flight, physics=physics)}
+    finish(row, None, as_json, lambda row: _show(f"{glider.name}: {title}", glider, row))
+
+
+def _show(title: str, glider: "Vehicle", row: dict[str, Any]) -> None:
     straight = row["radius_m"] is None
-    show_values(
-        f"{glider.name}: {title}",
-        {
-            "speed": number(row["speed_m_s"], 3, "m/s"),
-            "pitch": number(row["pitch_deg"], 2, "deg"),
-            "glide path": number(row["glide_path_deg"], 2, "deg"),
-            "angle of attack": number(row["angle_of_attack_deg"], 2, "deg"),
-            "sideslip": number(row["sideslip_deg"], 2, "deg"),
-            "roll": number(row["roll_deg"], 2, "deg"),
-            "turn rate": "straight" if straight else f"{row['turn_rate_rad_s']:.5f} rad/s",
-            "radius": "straight" if straight else number(row["radius_m"], 2, "m"),
-            "moving mass position": number(row["moving_mass_position_mm"], 1, "mm"),
-            "ballast volume": number(row["ballast_volume_ml"], 1, "ml"),
-            "rudder": number(row["rudder_deg"], 2, "deg"),
-            "roll of moving mass": number(row["roll_mass_deg"], 2, "deg"),
-            "stable": "yes" if stable else "no: the vehicle leaves this flight by itself",
-            "residual": f"{row['residual']:.1e} N, N m",
-        },
-    )
+    values = {
+        "speed": number(row["speed_m_s"], 3, "m/s"),
+        "pitch": number(row["pitch_deg"], 2, "deg"),
+        "glide path": number(row["glide_path_deg"], 2, "deg"),
+        "angle of attack": number(row["angle_of_attack_deg"], 2, "deg"),
+        "sideslip": number(row["sideslip_deg"], 2, "deg"),
+        "roll": number(row["roll_deg"], 2, "deg"),
+        "turn rate": "straight" if straight else f"{row['turn_rate_rad_s']:.5f} rad/s",
+        "radius": "straight" if straight else number(row["radius_m"], 2, "m"),
+        "moving mass position": number(row["moving_mass_position_mm"], 1, "mm"),
+        "ballast volume": number(row["ballast_volume_ml"], 1, "ml"),
+    }
+    if glider.description.rudder is not None:
+        values["rudder"] = number(row["rudder_deg"], 2, "deg")
+    if glider.description.moving_mass.offset_m != 0.0:
+        values["roll of moving mass"] = number(row["roll_mass_deg"], 2, "deg")
+    values["stable"] = "yes" if row["stable"] else "no: the vehicle leaves this flight by itself"
+    values["residual"] = f"{row['residual']:.1e} N, N m"
+    show_values(title, values)

@@ -4,13 +4,15 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from stommel.cli import INTERRUPTED
+from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption
-from stommel.cli.output import show_json, show_table
+from stommel.cli.output import counted, show_table
+from stommel.cli.paths import parser_with
+from stommel.cli.status import INTERRUPTED
 
 if TYPE_CHECKING:
     from stommel.studies.run import Finished
@@ -19,10 +21,25 @@ _SHOWN = 12
 """Outputs in the table of sensitivities; all are in the result and in --json."""
 
 
+def _check_result(path: Path) -> None:
+    from stommel.studies.result import check_output
+
+    check_output(path)
+
+
+_RESULT = parser_with("--output", _check_result, "file")
+
+
 def study(
     file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="Which mission, what to change, how many runs.")],
     output: Annotated[
-        Path | None, typer.Option("--output", help="Result, .nc or .zarr; STUDY.nc beside you if left out.")
+        Path | None,
+        typer.Option(
+            "--output",
+            metavar="FILE",
+            parser=_RESULT,
+            help="Result, .nc or .zarr; STUDY.nc in this folder if left out.",
+        ),
     ] = None,
     workers: Annotated[int | None, typer.Option("--workers", help="Processes; all cores if left out.")] = None,
     scheduler: Annotated[
@@ -42,17 +59,14 @@ def study(
     from stommel.studies.study import load_study
 
     loaded = load_study(file)
-    target = output if output is not None else Path(f"{file.stem}.nc")
+    target = output if output is not None else _RESULT(f"{file.stem}.nc")
     try:
         with _progress() as progress:
             done = run_study(loaded, target, workers=workers, scheduler=scheduler, restart=restart, progress=progress)
     except StudyInterruptedError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(INTERRUPTED) from None
-    if as_json:
-        show_json(_as_json(done, target))
-    else:
-        _show(done, target)
+    finish(done, [target], as_json, _show)
 
 
 @contextmanager
@@ -82,70 +96,17 @@ def _progress() -> Iterator[Callable[[int, int], None]]:
         yield lambda finished, runs: bar.update(task, completed=finished, total=runs)
 
 
-def _statistics(done: "Finished") -> dict[str, dict[str, float]]:
-    """Mean, standard deviation and extremes of every output over the runs that were flown."""
-    import numpy as np
-
-    found = {}
-    for name, values in done.outputs.items():
-        flown = values[np.isfinite(values)]
-        if len(flown):
-            found[name] = {
-                "mean": float(flown.mean()),
-                "standard_deviation": float(flown.std(ddof=1)) if len(flown) > 1 else 0.0,
-                "least": float(flown.min()),
-                "greatest": float(flown.max()),
-            }
-    return found
-
-
-def _sensitivity(done: "Finished") -> dict[str, dict[str, dict[str, float | None]]]:
-    """Measure, output, parameter."""
-    import numpy as np
-
-    found = done.sensitivity
-    if found is None:
-        return {}
-    return {
-        measure: {
-            name: {
-                parameter: float(value) if np.isfinite(value) else None
-                for parameter, value in zip(found.parameters, row, strict=True)
-            }
-            for name, row in zip(found.outputs, values, strict=True)
-        }
-        for measure, values in found.measures.items()
-    }
-
-
-def _as_json(done: "Finished", target: Path) -> dict[str, Any]:
-    return {
-        "study": done.study.file.name,
-        "kind": done.study.file.kind,
-        "runs": len(done.study.values),
-        "flown": done.flown,
-        "kept": done.kept,
-        "failed": [{"run": run, "reason": reason} for run, reason in done.failures],
-        "output": str(target),
-        "parameters": dict(zip(done.study.names, (p.key for p in done.study.file.parameters), strict=True)),
-        "statistics": _statistics(done),
-        "sensitivity_method": None if done.sensitivity is None else done.sensitivity.method,
-        "sensitivity": _sensitivity(done),
-    }
-
-
-def _show(done: "Finished", target: Path) -> None:
+def _show(done: "Finished") -> None:
     runs = len(done.study.values)
-    title = f"{done.study.file.name}: {done.study.file.kind} study of {runs} missions"
-    notes = [f"{count} runs could not be flown: {reason}" for reason, count in _reasons(done).most_common(5)]
+    title = f"{done.study.file.name}: {done.study.file.kind} study of {counted(runs, 'mission')}"
+    notes = [f"{counted(count, 'run')} could not be flown: {reason}" for reason, count in _reasons(done).most_common(5)]
     rows = [
         [name, *(f"{numbers[key]:.6g}" for key in ("mean", "standard_deviation", "least", "greatest"))]
-        for name, numbers in _statistics(done).items()
+        for name, numbers in done.statistics().items()
     ]
     show_table(title, ("output", "mean", "sd", "least", "greatest"), rows, notes)
     _show_sensitivity(done)
-    typer.echo(f"{done.flown} runs flown, {done.kept} kept from before")
-    typer.echo(f"wrote {target}")
+    typer.echo(f"{counted(done.flown, 'run')} flown, {done.kept} kept from before")
 
 
 def _reasons(done: "Finished") -> Counter[str]:

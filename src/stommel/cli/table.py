@@ -1,12 +1,16 @@
 """`stommel table`: trim over speeds and pitches, as Tables 1 and 2 of the paper."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from stommel.cli.finish import finish
 from stommel.cli.numbers import MOST, NumberError, numbers
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
-from stommel.cli.output import number, show_json, show_table
+from stommel.cli.output import number, show_table
+
+if TYPE_CHECKING:
+    from stommel.analysis.trim import TrimRow
 
 
 def table(
@@ -27,11 +31,10 @@ def table(
 
     glider = load(vehicle)
     rows = trim_table(glider, speeds_m_s=speeds, pitches_deg=pitches, physics=physics_of(physics))
-    if as_json:
-        show_json(
-            {"rows": [row.flight.as_row() | {"beyond_limits": [str(excess) for excess in row.beyond]} for row in rows]}
-        )
-        return
+    finish({"rows": [row.as_row() for row in rows]}, None, as_json, lambda _: _show(glider.name, rows))
+
+
+def _show(name: str, rows: "list[TrimRow]") -> None:
     body, notes = [], []
     for row in rows:
         cells = row.flight.as_row()
@@ -49,4 +52,4 @@ def table(
     if any(row.beyond for row in rows):
         notes.append("* beyond the limits of the vehicle file; --json names them")
     columns = ["speed\nm/s", "pitch\ndeg", "moving mass\nmm", "angle of attack\ndeg", "ballast\nml", "glide path\ndeg"]
-    show_table(f"{glider.name}: wings-level equilibria", columns, body, notes)
+    show_table(f"{name}: wings-level equilibria", columns, body, notes)

@@ -1,11 +1,24 @@
 """`stommel trim`: the actuator settings of one wanted flight."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, SpeedOption, VehicleArgument, load, physics_of
-from stommel.cli.output import number, show_json, show_values
+from stommel.cli.finish import finish
+from stommel.cli.options import (
+    IgnoreLimitsOption,
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    SpeedOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
+from stommel.cli.output import number, show_values
+
+if TYPE_CHECKING:
+    from stommel.analysis.flight import SteadyFlight
 
 
 def trim(
@@ -16,9 +29,7 @@ def trim(
         float | None, typer.Option("--glide-path", help="Angle of the path instead of the pitch [deg].")
     ] = None,
     physics: PhysicsOption = PhysicsChoice.paper,
-    ignore_limits: Annotated[
-        bool, typer.Option("--ignore-limits", help="Answer even beyond the actuators' limits.")
-    ] = False,
+    ignore_limits: IgnoreLimitsOption = False,
     as_json: JsonOption = False,
 ) -> None:
     """Find moving-mass position and ballast volume for a wanted steady flight.
@@ -36,12 +47,13 @@ def trim(
         physics=physics_of(physics),
         within_limits=not ignore_limits,
     )
+    finish(flight.as_row(), None, as_json, lambda _: _show(glider.name, flight))
+
+
+def _show(name: str, flight: "SteadyFlight") -> None:
     row = flight.as_row()
-    if as_json:
-        show_json(row)
-        return
     show_values(
-        f"{glider.name}: wings-level steady flight",
+        f"{name}: wings-level steady flight",
         {
             "speed": number(row["speed_m_s"], 3, "m/s"),
             "pitch": number(row["pitch_deg"], 2, "deg"),

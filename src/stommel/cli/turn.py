@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from stommel.cli.options import (
+    IgnoreLimitsOption,
     JsonOption,
     PhysicsChoice,
     PhysicsOption,
@@ -15,7 +16,7 @@ from stommel.cli.options import (
     load,
     physics_of,
 )
-from stommel.cli.steady import show_turn
+from stommel.cli.steady import finish_turn
 
 
 class SteeringChoice(StrEnum):
@@ -39,9 +40,7 @@ def turn(
         SteeringChoice | None, typer.Option("--by", help="What steers; the rudder where there is one.")
     ] = None,
     physics: PhysicsOption = PhysicsChoice.paper,
-    ignore_limits: Annotated[
-        bool, typer.Option("--ignore-limits", help="Answer even beyond the actuators' limits.")
-    ] = False,
+    ignore_limits: IgnoreLimitsOption = False,
     as_json: JsonOption = False,
 ) -> None:
     """Find moving mass, ballast and rudder (or roll of the moving mass) for a wanted turn.
@@ -61,4 +60,4 @@ def turn(
         physics=physics_of(physics),
         within_limits=not ignore_limits,
     )
-    show_turn("steady turn", glider, flight, physics_of(physics), as_json)
+    finish_turn("steady turn", glider, flight, physics_of(physics), as_json)

@@ -1,13 +1,14 @@
 """`stommel vehicles` and `stommel vehicle show|check|new`."""
 
-import os
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from stommel.cli.options import JsonOption, VehicleArgument, load
-from stommel.cli.output import number, show_json, show_table, show_values
+from stommel.cli.finish import finish
+from stommel.cli.options import ForceOption, JsonOption, VehicleArgument, load
+from stommel.cli.output import counted, number, show_entries, show_notes, show_table, show_values
+from stommel.cli.paths import file_parser, refuse_existing
 
 vehicle_app = typer.Typer(help="Look at, check and begin vehicle files.")
 
@@ -21,9 +22,10 @@ def vehicles(as_json: JsonOption = False) -> None:
         d = load(name).description
         planes = "vertical only" if list(d.unknown_lateral()) else "both"
         rows.append({"name": name, "mass_kg": d.mass_kg, "planes": planes, "summary": d.summary})
-    if as_json:
-        show_json(rows)
-        return
+    finish(rows, None, as_json, _show_vehicles)
+
+
+def _show_vehicles(rows: list[dict[str, Any]]) -> None:
     body = [[str(r["name"]), f"{r['mass_kg']:g}", str(r["planes"]), str(r["summary"])] for r in rows]
     show_table("Built-in vehicles", ["name", "mass\nkg", "planes", "what it is"], body)
 
@@ -35,34 +37,31 @@ def show(
     as_json: JsonOption = False,
 ) -> None:
     """Show every number of a vehicle with its source, assumptions marked."""
-    from stommel.vehicle import builtin_names, builtin_text, stated_numbers
+    from stommel.files.units import unit_of
+    from stommel.vehicle import stated_numbers, vehicle_text
 
     glider = load(vehicle)
     if toml:
-        text = builtin_text(vehicle) if vehicle in builtin_names() else Path(vehicle).read_text(encoding="utf-8")
-        typer.echo(text, nl=False)
+        typer.echo(vehicle_text(vehicle), nl=False)
         return
-    if as_json:
-        numbers = [
-            {"key": key, "value": value, "kind": origin.kind, "text": origin.text}
-            for key, value, origin in stated_numbers(glider)
-        ]
-        show_json({"name": glider.name, "numbers": numbers, "description": _plain(glider.description.model_dump())})
-        return
-    rows = []
-    for key, value, origin in stated_numbers(glider):
+    numbers = [
+        {"key": key, "value": value, "unit": unit_of(key), "kind": origin.kind, "text": origin.text}
+        for key, value, origin in stated_numbers(glider)
+    ]
+    answer = {"name": glider.name, "numbers": numbers, "description": glider.description.model_dump(mode="json")}
+    finish(answer, None, as_json, _show_numbers)
+
+
+def _show_numbers(answer: dict[str, Any]) -> None:
+    """Key, value and unit on one line, as a file or an option takes them; the source below."""
+    entries = []
+    for row in answer["numbers"]:
+        value = row["value"]
         shown = ", ".join(f"{v}" for v in value) if isinstance(value, list) else f"{value}"
-        mark = "assumption: " if origin.kind == "assumption" else ""
-        rows.append([key, shown, mark + (origin.text or "not stated")])
-    show_table(f"{glider.name}: {len(rows)} numbers", ["key", "value", "source"], rows, glider.description.notes)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, tuple):
-        return [_plain(item) for item in value]
-    return value
+        mark = "assumption: " if row["kind"] == "assumption" else ""
+        entries.append((f"{row['key']} = {shown} {row['unit'] or ''}".rstrip(), mark + (row["text"] or "not stated")))
+    show_entries(f"{answer['name']}: {len(entries)} numbers", entries)
+    show_notes(answer["description"]["notes"], "note")
 
 
 @vehicle_app.command("check")
@@ -83,15 +82,17 @@ def check(vehicle: VehicleArgument, as_json: JsonOption = False) -> None:
         "not_stated": kinds.count("not stated"),
         "unknown_lateral": missing,
     }
-    if as_json:
-        show_json(summary)
-        return
+    finish(summary, None, as_json, _show_check)
+
+
+def _show_check(summary: dict[str, Any]) -> None:
+    missing = summary["unknown_lateral"]
     show_values(
-        f"{glider.name}: the file is sound",
+        f"{summary['name']}: the file is sound",
         {
-            "mass": number(d.mass_kg, 2, "kg"),
-            "numbers": f"{len(kinds)}: {summary['sourced']} with a source, {summary['assumptions']} assumptions, "
-            f"{summary['not_stated']} without either",
+            "mass": number(summary["mass_kg"], 2, "kg"),
+            "numbers": f"{summary['numbers']}: {summary['sourced']} with a source, "
+            f"{counted(summary['assumptions'], 'assumption')}, {summary['not_stated']} without either",
             "planes": f"vertical only; missing {', '.join(missing)}" if missing else "vertical and lateral",
         },
     )
@@ -99,12 +100,17 @@ def check(vehicle: VehicleArgument, as_json: JsonOption = False) -> None:
 
 @vehicle_app.command("new")
 def new(
-    path: Annotated[Path, typer.Argument(metavar="FILE", help="The file to write, for example myglider.toml.")],
+    path: Annotated[
+        Path,
+        typer.Argument(
+            metavar="FILE", parser=file_parser("FILE", ".toml"), help="The file to write, for example myglider.toml."
+        ),
+    ],
     like: Annotated[str, typer.Option("--from", help="Built-in vehicle to begin from.")] = "zju",
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
+    force: ForceOption = False,
+    as_json: JsonOption = False,
 ) -> None:
     """Begin a vehicle file from a built-in one."""
-    from stommel.errors import OutputError
     from stommel.files.whole import write_whole
     from stommel.vehicle import UnknownVehicleError, builtin_names, builtin_text
 
@@ -112,7 +118,11 @@ def new(
         raise UnknownVehicleError(
             f"--from {like}: no built-in vehicle of this name; there are {', '.join(builtin_names())}"
         )
-    if os.path.exists(path) and not force:  # noqa: PTH110 - Path.exists raises for a name that is too long
-        raise OutputError(f"{path}: already exists; --force replaces it")
+    refuse_existing(path, force)
     write_whole(path, builtin_text(like))
-    typer.echo(f"wrote {path}, a copy of {like}; edit it, then run: stommel vehicle check {path}")
+    finish(
+        {"from": like},
+        [path],
+        as_json,
+        lambda _: typer.echo(f"a copy of {like}: edit it, then run: stommel vehicle check {path}"),
+    )

@@ -2,7 +2,10 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from stommel.compilation import compiled, inlined
+from stommel.control.commands import LOAD_CLIMB, LOAD_DIVE, LOAD_DRIFT, LOAD_SURFACE, LOAD_UNDERWATER
 
 SURFACE, DESCENT, INFLECTION, ASCENT, RECOVERY, DRIFT = range(6)
 PHASES = ("surface", "descent", "inflection", "ascent", "recovery", "drift")
@@ -10,8 +13,8 @@ PHASES = ("surface", "descent", "inflection", "ascent", "recovery", "drift")
 
 (
     NOTHING, ABORT_DEPTH, ABORT_TIME, ABORT_BATTERY, ABORT_LEAK, MISSION_COMPLETE, BOTTOM_AHEAD, TARGET_REACHED,
-    ABORT_PRESSURE, OUTSIDE_DATA,
-) = range(10)  # fmt: skip
+    ABORT_PRESSURE,
+) = range(9)  # fmt: skip
 EVENTS = (
     "nothing",
     "abort: too deep",
@@ -22,7 +25,6 @@ EVENTS = (
     "bottom ahead",
     "target depth reached",
     "abort: pressure inside the hull",
-    "outside the ocean's data",
 )
 MISSION_ENDS = (ABORT_BATTERY, ABORT_LEAK, ABORT_PRESSURE)
 """Alarms after which the vehicle comes up and stays; too deep and too long only end the dive."""
@@ -85,7 +87,7 @@ class DiveState(NamedTuple):
     """What happened last; stays until something else happens."""
 
 
-class Readings(NamedTuple):
+class Situation(NamedTuple):
     """What the vehicle knows when it decides on the phase."""
 
     depth: float
@@ -102,68 +104,125 @@ class Readings(NamedTuple):
     """One of `MISSION_ENDS`, or `NOTHING`."""
 
 
+(
+    CALLS, ALARMED, NO_MORE_WANTED, READY, TOO_DEEP, TOO_LONG, BOTTOM_NEAR, AT_DEPTH_TO_DRIFT, AT_DEPTH, DRIFTED,
+    BUOYANT, DIVES_AGAIN, SHALLOW,
+) = range(13)  # fmt: skip
+CONDITIONS = (
+    "still calls, or waits for a position",
+    "an alarm",
+    "no dive wanted",
+    "otherwise",
+    "deeper than the abort depth",
+    "longer under water than allowed",
+    "bottom within the least altitude",
+    "at the depth, and told to drift",
+    "at the depth",
+    "drifted long enough",
+    "oil outside: buoyant",
+    "at the upper turn, another dive wanted",
+    "shallow, or climbing longer than allowed",
+)
+"""What a transition waits for, in words."""
+
+KEPT, THE_ALARM = -1, -2
+"""Reasons that the table does not name itself: that of before, and that of the alarm."""
+
+
+class Transition(NamedTuple):
+    """One way out of a phase."""
+
+    phase: int
+    condition: int
+    reason: int
+    """One of `EVENTS`, `KEPT` or `THE_ALARM`."""
+    next: int
+
+
+TRANSITIONS = (
+    Transition(SURFACE, CALLS, KEPT, SURFACE),
+    Transition(SURFACE, ALARMED, THE_ALARM, RECOVERY),
+    Transition(SURFACE, NO_MORE_WANTED, MISSION_COMPLETE, RECOVERY),
+    Transition(SURFACE, READY, KEPT, DESCENT),
+    Transition(DESCENT, ALARMED, THE_ALARM, INFLECTION),
+    Transition(DESCENT, TOO_DEEP, ABORT_DEPTH, INFLECTION),
+    Transition(DESCENT, TOO_LONG, ABORT_TIME, INFLECTION),
+    Transition(DESCENT, BOTTOM_NEAR, BOTTOM_AHEAD, INFLECTION),
+    Transition(DESCENT, AT_DEPTH_TO_DRIFT, TARGET_REACHED, DRIFT),
+    Transition(DESCENT, AT_DEPTH, TARGET_REACHED, INFLECTION),
+    Transition(INFLECTION, BUOYANT, KEPT, ASCENT),
+    Transition(ASCENT, DIVES_AGAIN, KEPT, DESCENT),
+    # a pressure sensor that never says shallow must not keep the vehicle from calling
+    Transition(ASCENT, SHALLOW, KEPT, SURFACE),
+    Transition(DRIFT, ALARMED, THE_ALARM, INFLECTION),
+    Transition(DRIFT, TOO_DEEP, ABORT_DEPTH, INFLECTION),
+    Transition(DRIFT, TOO_LONG, ABORT_TIME, INFLECTION),
+    Transition(DRIFT, BOTTOM_NEAR, BOTTOM_AHEAD, INFLECTION),
+    Transition(DRIFT, DRIFTED, TARGET_REACHED, INFLECTION),
+)
+"""The dive cycle: of the rows of a phase, in the order of the phases, the first whose condition holds is taken. A row
+back to its own phase stays there; recovery has no way out."""
+
+_ROWS = np.array(TRANSITIONS, dtype=np.int64)
+_FIRST = np.searchsorted(_ROWS[:, 0], np.arange(len(PHASES) + 1))
+"""Where the rows of each phase begin."""
+
+
 @compiled
-def next_dive_state(state: DiveState, plan: DivePlan, t: float, readings: Readings) -> DiveState:
+def next_dive_state(state: DiveState, plan: DivePlan, t: float, situation: Situation) -> DiveState:
     """Advance the cycle by measurements, at time `t` of the mission [s]."""
     phase = int(state.phase)
-    if phase == SURFACE:
-        return _at_surface(state, plan, t, readings)
-    if phase in (DESCENT, DRIFT):
-        return _below(state, plan, t, readings)
-    if phase == INFLECTION and readings.ballast >= 0.0:
-        return _enter(state, ASCENT, t, int(state.event))
-    if phase == ASCENT:
-        return _climbing(state, plan, t, readings)
+    for k in range(_FIRST[phase], _FIRST[phase + 1]):
+        if _holds(_ROWS[k, 1], state, plan, t, situation):
+            return _entered(state, _ROWS[k, 3], t, _ROWS[k, 2], situation.alarm)
     return state
 
 
 @inlined
-def _at_surface(state: DiveState, plan: DivePlan, t: float, readings: Readings) -> DiveState:
-    waited = t - state.since
-    if waited < plan.surface_time or not (readings.fixed or waited >= plan.longest_surface_time):
+def _holds(condition: int, state: DiveState, plan: DivePlan, t: float, now: Situation) -> bool:  # noqa: PLR0911 - one line a condition
+    if condition == CALLS:
+        waited = t - state.since
+        return waited < plan.surface_time or not (now.fixed or waited >= plan.longest_surface_time)
+    if condition == ALARMED:
+        return now.alarm != NOTHING
+    if condition == NO_MORE_WANTED:
+        return not now.wanted
+    if condition == TOO_DEEP:
+        return now.depth > plan.abort_depth
+    if condition == TOO_LONG:
+        return t - state.submerged_since > plan.abort_time
+    if condition == BOTTOM_NEAR:
+        return now.altitude <= plan.least_altitude
+    if condition == AT_DEPTH_TO_DRIFT:
+        return now.depth >= plan.depth and plan.drift_time > 0.0
+    if condition == AT_DEPTH:
+        return now.depth >= plan.depth
+    if condition == DRIFTED:
+        return t - state.since >= plan.drift_time
+    if condition == BUOYANT:
+        return now.ballast >= 0.0
+    if condition == DIVES_AGAIN:
+        time_left = t - state.submerged_since < plan.surfacing_interval and int(state.event) != ABORT_TIME
+        more = now.wanted and now.alarm == NOTHING and time_left and state.dives_here < plan.dives_per_surfacing
+        return more and now.depth <= plan.turn_depth
+    if condition == SHALLOW:
+        return now.depth <= plan.shallow_depth or t - state.since > plan.abort_time
+    return True
+
+
+@inlined
+def _entered(state: DiveState, phase: int, t: float, reason: int, alarm: int) -> DiveState:
+    """The next state; a descent begins a dive, from the surface the first of its stay under water."""
+    if phase == int(state.phase):
         return state
-    if readings.alarm != NOTHING:
-        return _enter(state, RECOVERY, t, readings.alarm)
-    if not readings.wanted:
-        return _enter(state, RECOVERY, t, MISSION_COMPLETE)
-    return DiveState(float(DESCENT), t, t, state.dives + 1.0, 1.0, state.event)
-
-
-@inlined
-def _below(state: DiveState, plan: DivePlan, t: float, readings: Readings) -> DiveState:
-    """Descent and drift: whether to turn upwards, and why."""
-    if readings.alarm != NOTHING:
-        return _enter(state, INFLECTION, t, readings.alarm)
-    if readings.depth > plan.abort_depth:
-        return _enter(state, INFLECTION, t, ABORT_DEPTH)
-    if t - state.submerged_since > plan.abort_time:
-        return _enter(state, INFLECTION, t, ABORT_TIME)
-    if readings.altitude <= plan.least_altitude:
-        return _enter(state, INFLECTION, t, BOTTOM_AHEAD)
-    if int(state.phase) == DRIFT:
-        return _enter(state, INFLECTION, t, TARGET_REACHED) if t - state.since >= plan.drift_time else state
-    if readings.depth >= plan.depth:
-        return _enter(state, DRIFT if plan.drift_time > 0.0 else INFLECTION, t, TARGET_REACHED)
-    return state
-
-
-@inlined
-def _climbing(state: DiveState, plan: DivePlan, t: float, readings: Readings) -> DiveState:
-    time_left = t - state.submerged_since < plan.surfacing_interval and int(state.event) != ABORT_TIME
-    again = readings.wanted and readings.alarm == NOTHING and time_left and state.dives_here < plan.dives_per_surfacing
-    if again and readings.depth <= plan.turn_depth:
-        return DiveState(
-            float(DESCENT), t, state.submerged_since, state.dives + 1.0, state.dives_here + 1.0, state.event
-        )
-    # a pressure sensor that never says shallow must not keep the vehicle from calling
-    if readings.depth <= plan.shallow_depth or t - state.since > plan.abort_time:
-        return _enter(state, SURFACE, t, int(state.event))
-    return state
-
-
-@inlined
-def _enter(state: DiveState, phase: int, t: float, event: int) -> DiveState:
-    return DiveState(float(phase), t, state.submerged_since, state.dives, state.dives_here, float(event))
+    event = state.event if reason == KEPT else float(alarm) if reason == THE_ALARM else float(reason)
+    submerged_since, dives, dives_here = state.submerged_since, state.dives, state.dives_here
+    if phase == DESCENT:
+        dives += 1.0
+        dives_here += 1.0
+        if int(state.phase) == SURFACE:
+            submerged_since, dives_here = t, 1.0
+    return DiveState(float(phase), t, submerged_since, dives, dives_here, event)
 
 
 @compiled
@@ -186,3 +245,12 @@ def wanted_pitch(state: DiveState, plan: DivePlan) -> float:
     if phase == DRIFT:
         return 0.0
     return -plan.theta if phase == DESCENT else plan.theta
+
+
+@inlined
+def wanted_loads(phase: int) -> int:
+    """Groups of consumers that are on in a phase, bits of `stommel.control.commands`."""
+    if phase in (SURFACE, RECOVERY):
+        return LOAD_SURFACE
+    leg = LOAD_DIVE if phase == DESCENT else LOAD_DRIFT if phase == DRIFT else LOAD_CLIMB
+    return LOAD_UNDERWATER | leg

@@ -8,8 +8,12 @@ class NamedWarning:
     """A finding that does not stop a computation."""
 
     name: str
-    """In words joined by underscores; it does not change between versions."""
+    """For scripts: it does not change between versions."""
     message: str
 
     def __str__(self) -> str:
         return f"{self.name}: {self.message}"
+
+    def as_row(self) -> dict[str, str]:
+        """The warning for JSON."""
+        return {"name": self.name, "message": self.message}

@@ -5,9 +5,10 @@ terminal, the report and scripts alike.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, field
+from functools import partial
 from math import degrees
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -55,6 +56,10 @@ class ComparedRow:
 
     trim: TrimRow
     published: PublishedRow | None
+
+    def as_row(self) -> dict[str, object]:
+        """Both in words with units."""
+        return {**self.trim.as_row(), "published": None if self.published is None else asdict(self.published)}
 
 
 @dataclass(frozen=True)
@@ -115,13 +120,48 @@ class DesignStudy:
     unanswered: tuple[tuple[str, str], ...]
     """Parts of this study that could not be answered, each with the reason."""
 
+    def as_json(self) -> dict[str, Any]:
+        """What `stommel design` answers, in words with units; its other parts have verbs of their own."""
+        return {
+            "vehicle": self.vehicle.name,
+            "specification": [asdict(row) for row in self.specification],
+            "tables": [{"title": table.title, "rows": [row.as_row() for row in table.rows]} for table in self.tables],
+            "envelope": None if self.envelope is None else [row.as_row() for row in self.envelope],
+            "ranges": None if self.ranges is None else self.ranges.as_row(),
+            **({"best_glide": None, "fastest": None} if self.best is None else self.best.as_row()),
+            **self.modes.as_row(),
+            "authority": self.authority.as_row(),
+            "turns": [flight.as_turn() for flight in self.turns],
+            "notes": list(self.notes),
+            "unanswered": dict(self.unanswered),
+        }
+
 
 DEFAULT_SPEED_M_S, DEFAULT_PITCH_DEG = 0.4, 35.0
 _MOST_TURNS = 60
+_LOCI = (("wing_position", 0.0, 0.2), ("rudder_position", 0.5, 1.0))
+"""Number of the vehicle file, and where its root locus begins and ends [hull lengths]."""
 
 
 def _silent(part: str) -> None:
     """Show no progress of `part`."""
+
+
+@dataclass
+class _Interview:
+    """Asks a vehicle one question after the other, and keeps what it could not answer."""
+
+    vehicle: Vehicle
+    progress: Progress
+    unanswered: list[tuple[str, str]] = field(default_factory=list)
+
+    def ask(self, part: str, question: Callable[[], _Answer]) -> _Answer | None:
+        self.progress(part)
+        try:
+            return question()
+        except StommelError as error:
+            self.unanswered.append((part, str(error).removeprefix(f"{self.vehicle.name}: ")))
+            return None
 
 
 def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progress = _silent) -> DesignStudy:
@@ -144,16 +184,8 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
     spec = vehicle.description.specification
     speed = (spec.design_speed_m_s if spec else None) or DEFAULT_SPEED_M_S
     pitch = (spec.design_pitch_deg if spec else None) or DEFAULT_PITCH_DEG
-    unanswered: list[tuple[str, str]] = []
-
-    def ask(part: str, question: Callable[[], _Answer]) -> _Answer | None:
-        progress(part)
-        try:
-            return question()
-        except StommelError as error:
-            unanswered.append((part, str(error).removeprefix(f"{vehicle.name}: ")))
-            return None
-
+    interview = _Interview(vehicle, progress)
+    ask = interview.ask
     progress("design flight")
     flight = trim(vehicle, speed_m_s=speed, pitch_deg=-pitch, physics=physics, within_limits=False)
     linear = linearise(vehicle, flight, physics=physics)
@@ -163,18 +195,7 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
     engine = vehicle.description.actuators.buoyancy
     ballast_ml = engine.volume_ml[0] if engine else flight.V_b * 1e6
     best = ask("best conditions", lambda: best_conditions(vehicle, ballast_ml=ballast_ml, physics=physics))
-    loci = tuple(
-        locus
-        for over, start, stop in (("wing_position", 0.0, 0.2), ("rudder_position", 0.5, 1.0))
-        if (
-            locus := ask(
-                f"root locus over {over.replace('_', ' ')}",
-                lambda over=over, start=start, stop=stop: root_locus(  # type: ignore[misc]  # bound now
-                    vehicle, over, start, stop, speed_m_s=speed, pitch_deg=-pitch, physics=physics
-                ),
-            )
-        )
-    )
+    loci = _loci(interview, physics, speed, pitch)
     turns = ask("turns", lambda: _turns(vehicle, physics, speed, pitch)) or ()
     hull = ask("pressure hull", lambda: hull_study(vehicle))
     oil = ask("buoyancy engine", lambda: engine_study(vehicle))
@@ -204,7 +225,7 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
         budget=budget,
         numbers=tuple(stated_numbers(vehicle)),
         notes=vehicle.description.notes,
-        unanswered=tuple(unanswered),
+        unanswered=tuple(interview.unanswered),
     )
 
 
@@ -231,6 +252,19 @@ def _tables(vehicle: Vehicle, physics: Physics, speed: float, pitch: float) -> t
             (f"Fixed pitch of {-pitch:g} deg", at_pitch),
         )
     )
+
+
+def _loci(interview: _Interview, physics: Physics, speed: float, pitch: float) -> tuple[RootLocus, ...]:
+    """Root loci of the design flight, of those numbers that the vehicle has."""
+
+    def of(over: str, start: float, stop: float) -> RootLocus:
+        return root_locus(interview.vehicle, over, start, stop, speed_m_s=speed, pitch_deg=-pitch, physics=physics)
+
+    asked = (
+        interview.ask(f"root locus over {over.replace('_', ' ')}", partial(of, over, start, stop))
+        for over, start, stop in _LOCI
+    )
+    return tuple(locus for locus in asked if locus)
 
 
 def _row(vehicle: Vehicle, physics: Physics, speed: float, pitch: float) -> TrimRow:

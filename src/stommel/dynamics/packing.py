@@ -18,21 +18,20 @@ UNKNOWN = 0.0
 
 def pack(vehicle: Vehicle, physics: Physics) -> np.record:
     """Return the parameter record of a vehicle under the given physics."""
-    return _pack(vehicle.description, physics)
+    return _pack(vehicle.description, physics, vehicle.neutral_density_kg_m3)
 
 
 def reference_water(vehicle: Vehicle) -> Water:
     """Still water in which the vehicle is neutral."""
-    water = vehicle.description.water
-    return Water(rho=water.density_kg_m3, P=0.0, T=water.temperature_c)
+    return Water(rho=vehicle.neutral_density_kg_m3, P=0.0, T=vehicle.description.water.temperature_c)
 
 
 @lru_cache(maxsize=64)
-def _pack(description: VehicleFile, physics: Physics) -> np.record:
+def _pack(description: VehicleFile, physics: Physics, neutral_density: float) -> np.record:
     return parameter_record(
         **_masses(description),
         **_inertia(description),
-        **_buoyancy(description, physics),
+        **_buoyancy(description, physics, neutral_density),
         **_coefficients(description),
         **_beyond_stall(description, physics),
     )
@@ -71,12 +70,12 @@ def _six(S: NDArray[np.float64]) -> list[float]:
     return [S[0, 0], S[1, 1], S[2, 2], S[0, 1], S[0, 2], S[1, 2]]
 
 
-def _buoyancy(d: VehicleFile, physics: Physics) -> dict[str, object]:
+def _buoyancy(d: VehicleFile, physics: Physics, neutral_density: float) -> dict[str, object]:
     origin = (0.0, 0.0, 0.0)
     engine = d.actuators.buoyancy if physics.bladder else None
     elastic = d.hull if physics.hull_elasticity else None
     return {
-        "V_0": d.mass_kg / d.water.density_kg_m3,
+        "V_0": d.mass_kg / neutral_density,
         "kappa": elastic.compressibility_per_pa if elastic else 0.0,
         "alpha_T": elastic.thermal_expansion_per_k if elastic else 0.0,
         "T_0": d.water.temperature_c,

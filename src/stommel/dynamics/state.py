@@ -12,6 +12,12 @@ from stommel.geometry.vectors import Quaternion, Vector
 STATE_SIZE = 16
 """Length of a flat state: X 0:3, Q 3:7, p 7:10, h 10:13, r_px 13, p_px 14, V_b 15."""
 
+X_NORTH, X_EAST, DEPTH, R_PX, P_PX, V_B = 0, 1, 2, 13, 14, 15
+"""Places in a flat state."""
+
+MOMENTA = slice(7, 13)
+"""Places of p and h."""
+
 
 class State(NamedTuple):
     """State of the glider, or its rate; SI units.

@@ -1,6 +1,5 @@
 """States from a file, and their accelerations in words: for checking stommel against other codes."""
 
-import codecs
 from collections.abc import Sequence
 from math import degrees, isfinite, radians
 from pathlib import Path
@@ -12,6 +11,7 @@ from stommel.dynamics.acceleration import accelerations, state_of
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import Actuation
 from stommel.errors import FileError, Problem, StommelError
+from stommel.files.opening import TABLE_MIB, read_text
 from stommel.files.sentences import dotted, sentence
 from stommel.geometry.attitude import euler_rates, quaternion_from_euler
 from stommel.vehicle import Physics, Vehicle
@@ -55,10 +55,7 @@ def read_states(path: Path) -> list[StateEntry]:
     FileError
         The file cannot be read, or a state has an unknown, missing or impossible key.
     """
-    try:
-        text = path.read_bytes().removeprefix(codecs.BOM_UTF8)
-    except OSError as error:
-        raise FileError([Problem(str(path), "", f"cannot be read: {error.strerror or error}")]) from error
+    text = read_text(path, TABLE_MIB)
     try:
         return TypeAdapter(list[StateEntry]).validate_json(text)
     except ValidationError as error:

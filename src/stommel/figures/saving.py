@@ -1,12 +1,13 @@
-"""Figures as files: PNG and SVG with the same bytes for the same figure."""
+"""Figures as files: PNG, SVG or PDF, with the same bytes for the same figure."""
 
 import io
 import re
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stommel.figures.style import plot_style
-from stommel.files.whole import write_whole
+from stommel.files.whole import require_file, write_whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -48,6 +49,22 @@ def _with_unique_identifiers(svg: str) -> str:
     return re.sub(r'<g id="([^"]+)"', unique, svg)
 
 
+def pdf_bytes(figure: "Figure") -> bytes:
+    """Render a figure as a PDF document, without date or software in its metadata."""
+    from matplotlib.backends.backend_pdf import FigureCanvasPdf  # noqa: PLC0415 - start-up counts
+
+    stream = io.BytesIO()
+    with plot_style():
+        metadata = {"CreationDate": None, "Creator": None, "Producer": None}
+        FigureCanvasPdf(figure).print_figure(stream, format="pdf", metadata=metadata)
+    return stream.getvalue()
+
+
+_FORMATS: Mapping[str, Callable[["Figure"], bytes | str]] = {".png": png_bytes, ".svg": svg_text, ".pdf": pdf_bytes}
+ENDINGS = tuple(_FORMATS)
+"""What the name of a figure's file ends with."""
+
+
 def save_figure(figure: "Figure", stem: Path) -> list[Path]:
     """Write `stem`.png and `stem`.svg, and return their paths.
 
@@ -56,10 +73,17 @@ def save_figure(figure: "Figure", stem: Path) -> list[Path]:
     OutputError
         A file cannot be written; none is left half-written.
     """
-    contents: list[tuple[str, bytes | str]] = [(".png", png_bytes(figure)), (".svg", svg_text(figure))]
-    paths = []
-    for suffix, content in contents:
-        path = stem.with_name(stem.name + suffix)
-        write_whole(path, content)
-        paths.append(path)
-    return paths
+    return [save_figure_as(figure, stem.with_name(stem.name + ending)) for ending in (".png", ".svg")]
+
+
+def save_figure_as(figure: "Figure", path: Path) -> Path:
+    """Write a figure in the format that the name of its file ends with, and return its path.
+
+    Raises
+    ------
+    OutputError
+        The name ends otherwise, or the file cannot be written; none is left half-written.
+    """
+    require_file(path, ENDINGS)
+    write_whole(path, _FORMATS[path.suffix.lower()](figure))
+    return path

@@ -10,6 +10,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from stommel.errors import FileError, Problem
+from stommel.files.sentences import shown
+
 Kind = Literal["source", "assumption", "not stated"]
 KINDS: tuple[Kind, ...] = ("source", "assumption")
 
@@ -25,7 +28,7 @@ class Provenance:
 NOT_STATED = Provenance("not stated", "")
 
 
-class ProvenanceError(ValueError):
+class _ProvenanceError(ValueError):
     """A provenance that is not text; holds the key."""
 
     def __init__(self, key: str, message: str) -> None:
@@ -33,16 +36,19 @@ class ProvenanceError(ValueError):
         super().__init__(message)
 
 
-def separate(document: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Provenance]]:
-    """Split a parsed file into plain values and the provenance of each dotted key.
+def separate(document: Mapping[str, Any], origin: str) -> tuple[dict[str, Any], dict[str, Provenance]]:
+    """Split a parsed file into plain values and the provenance of each dotted key; `origin` names it in messages.
 
     Raises
     ------
-    ProvenanceError
+    FileError
         A source or assumption is not text, or a number has both.
     """
     found: dict[str, Provenance] = {}
-    plain = _separate_table(document, "", NOT_STATED, found)
+    try:
+        plain = _separate_table(document, "", NOT_STATED, found)
+    except _ProvenanceError as error:
+        raise FileError([Problem(origin, error.key, str(error))]) from None
     return plain, found
 
 
@@ -51,10 +57,10 @@ def _own(table: Mapping[str, Any], key: str) -> Provenance | None:
     if not stated:
         return None
     if len(stated) > 1:
-        raise ProvenanceError(key, f"{key or 'the file'} has both a source and an assumption; keep one")
+        raise _ProvenanceError(key, f"{key or 'the file'} has both a source and an assumption; keep one")
     text = table[stated[0]]
     if not isinstance(text, str) or not text.strip():
-        raise ProvenanceError(key, f"{key or 'the file'}: {stated[0]} = {text!r}: must be text")
+        raise _ProvenanceError(key, f"{key or 'the file'}: {stated[0]} = {shown(text)}: must be text")
     return Provenance(stated[0], text)
 
 

@@ -1,23 +1,17 @@
-"""Turns validation errors into sentences that name the key, the value and what is allowed."""
+"""Validates what a file says; errors are sentences that name the key, the value and what is allowed."""
 
 import difflib
 from collections.abc import Sequence
-from typing import Any, get_args
+from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
-_UNITS = {
-    "mm_per_deg": "mm/deg", "ml_s_m": "ml s/m", "ml_min": "ml/min", "conductivity_noise_s_m": "S/m",
-    "mn_m_a": "mN m/A", "n_m_s": "N m s", "n_s_m": "N s/m", "n_m": "N m", "g_cm2": "g cm2", "ml_r": "ml/r",
-    "ml_s_mpa": "ml/(s MPa)", "mpa_s_ml": "MPa s/ml", "mpa_s2_ml2": "MPa s2/ml2", "mpa_ml": "MPa/ml", "rpm": "r/min",
-    "ohm": "ohm", "a": "A", "n": "N", "coupling_kg_m": "kg m", "kg_m2": "kg m2", "kg_m3": "kg/m3", "kg_m": "kg/m",
-    "kg_s": "kg s", "m_s2": "m/s2", "m_s": "m/s", "mm_s": "mm/s", "ml_s": "ml/s", "deg_s": "deg/s", "per_pa": "1/Pa",
-    "per_k": "1/K", "days": "days", "kg": "kg", "mpa": "MPa", "mm": "mm", "ml": "ml", "deg": "degrees", "ah": "A h",
-    "v": "V", "c": "deg C", "m": "m", "w": "W", "j": "J", "s": "s", "mnm_a": "mN m/A", "mnm": "mN m", "ms": "ms",
-    "hours": "h", "minutes": "min", "h": "h", "km": "km", "wh": "W h", "kpa": "kPa", "pa": "Pa", "dbar": "dbar",
-    "l": "l",
-}  # fmt: skip
+from stommel.errors import FileError, Problem
+from stommel.files.units import unit_of
+
+Model = TypeVar("Model", bound=BaseModel)
 
 _RANGES = {
     "greater_than": ("gt", "greater than {}"),
@@ -41,22 +35,38 @@ _PLAIN = {
 """What is allowed, by kind of error."""
 
 
-def unit_of(key: str) -> str | None:
-    """Unit that the name of a key ends with, in words, or None."""
-    name = key.rsplit(".", 1)[-1]
-    return next((words for suffix, words in _UNITS.items() if f"_{name}".endswith(f"_{suffix}")), None)
+MOST_PROBLEMS = 100
+"""Sentences about one file; the rest are counted."""
+_LONGEST_KEY = 120
+
+
+def validated(document: Any, model: type[Model], origin: str) -> Model:
+    """Validate what a file says; `origin` names it in messages.
+
+    Raises
+    ------
+    FileError
+        One problem for each wrong key, with what is allowed.
+    """
+    try:
+        return model.model_validate(document)
+    except ValidationError as error:
+        raise FileError([Problem(origin, key, text) for key, text in sentences(error, model)]) from None
 
 
 def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[str, str]]:
     """Return (key, sentence) for each of the errors, unknown keys first: they often explain the missing ones."""
     details = sorted(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
-    found = [(dotted(detail["loc"]), sentence(detail, model)) for detail in details]
+    found = [(dotted(detail["loc"]), sentence(detail, model)) for detail in details[:MOST_PROBLEMS]]
+    if len(details) > MOST_PROBLEMS:
+        found.append(("", f"and {len(details) - MOST_PROBLEMS} more problems"))
     return list({words: (key, words) for key, words in found}.values())  # a short list misses several entries
 
 
 def dotted(location: Sequence[str | int]) -> str:
-    """Key as a user writes it."""
-    return ".".join(str(part) for part in location)
+    """Key as a user writes it, cut to a readable length."""
+    key = ".".join(str(part) for part in location)
+    return key if len(key) <= _LONGEST_KEY else f"{key[:_LONGEST_KEY]}..."
 
 
 def sentence(detail: ErrorDetails, model: type[BaseModel]) -> str:
@@ -71,27 +81,27 @@ def sentence(detail: ErrorDetails, model: type[BaseModel]) -> str:
     if kind in _RANGES:
         constraint, words = _RANGES[kind]
         crossed = words.format(detail["ctx"][constraint])
-        return f"{key} = {value}: must be {allowed_range(detail['loc'], model) or crossed}"
+        return f"{key} = {shown(value)}: must be {allowed_range(detail['loc'], model) or crossed}"
     if kind in _PLAIN:
-        return f"{key} = {_shown(value)}: {_PLAIN[kind].format(**detail.get('ctx', {}))}"
+        return f"{key} = {shown(value)}: {_PLAIN[kind].format(**detail.get('ctx', {}))}"
     if kind in ("missing_keyword", "model_type", "dict_type", "model_attributes_type"):
-        return f"{key} = {_shown(value)}: must be a table, [{key}]"
-    return f"{key} = {_shown(value)}: {detail['msg'][0].lower()}{detail['msg'][1:]}"
+        return f"{key} = {shown(value)}: must be a table, [{key}]" if key else f"{shown(value)}: must be a table"
+    return f"{key} = {shown(value)}: {detail['msg'][0].lower()}{detail['msg'][1:]}"
 
 
 def _missing(detail: ErrorDetails, model: type[BaseModel]) -> str:
     *parents, name = detail["loc"]
     key = dotted(detail["loc"])
     if isinstance(name, int):
-        return f"{dotted(parents)} = {_shown(detail['input'])}: the list is too short"
-    field = _table_at(parents, model).model_fields.get(name)
+        return f"{dotted(parents)} = {shown(detail['input'])}: the list is too short"
+    field = _fields(_table_at(parents, model)).get(name)
     if field is not None and _models_in(field.annotation):
         return f"the table [{key}] is missing"
     unit = unit_of(key)
     return f"{key} is missing; add {name}{f' = <number in {unit}>' if unit else ''}"
 
 
-def _shown(value: object) -> str:
+def shown(value: object) -> str:
     """A value as the file might write it, cut to a readable length."""
     text = str(value).lower() if isinstance(value, bool) else repr(value) if isinstance(value, str) else str(value)
     return text if len(text) <= 60 else f"{text[:57]}..."
@@ -99,7 +109,7 @@ def _shown(value: object) -> str:
 
 def _unknown(location: Sequence[str | int], model: type[BaseModel]) -> str:
     *parents, name = location
-    known = list(_table_at(parents, model).model_fields)
+    known = list(_fields(_table_at(parents, model)))
     where = f"in [{dotted(parents)}]" if parents else "at the top of the file"
     near = [key for key in known if key.startswith(f"{name}_")] or difflib.get_close_matches(str(name), known, 1, 0.6)
     hint = ""
@@ -109,12 +119,17 @@ def _unknown(location: Sequence[str | int], model: type[BaseModel]) -> str:
     return f"{dotted(location)}: unknown key {where}{hint or ';'} known keys: {', '.join(known)}"
 
 
+def _fields(model: type[BaseModel]) -> dict[str, FieldInfo]:
+    """Fields of a table by the keys that a file has for them."""
+    return {field.alias or name: field for name, field in model.model_fields.items()}
+
+
 def _table_at(location: Sequence[str | int], model: type[BaseModel]) -> type[BaseModel]:
     """Follow a location down through nested tables."""
     for part in location:
         if isinstance(part, int):
             continue
-        inside = _models_in(model.model_fields[part].annotation)
+        inside = _models_in(_fields(model)[part].annotation)
         if not inside:
             break
         model = inside[0]
@@ -130,7 +145,7 @@ def _models_in(annotation: Any) -> list[type[BaseModel]]:
 def allowed_range(location: Sequence[str | int], model: type[BaseModel]) -> str:
     """The range that the field at `location` allows, in words; empty where it has none."""
     *parents, name = location
-    field = _table_at(parents, model).model_fields.get(str(name))
+    field = _fields(_table_at(parents, model)).get(str(name))
     if field is None:
         return ""
     constraints = list(field.metadata)

@@ -1,13 +1,77 @@
-"""Writing results: whole or not at all."""
+"""Writing results: whole or not at all, and refused before long work where nothing could be written."""
 
+import errno
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from stommel.errors import OutputError
+
+_LONGEST_SHOWN = 160
+"""Characters of a path in a message."""
+
+
+def require_file(path: Path, endings: Sequence[str] = ()) -> None:
+    """Refuse a path that no file can be written to; nothing is made there.
+
+    Parameters
+    ----------
+    path
+        A file that may stand there already; folders above it may be missing.
+    endings
+        What its name may end with, as .png; with anything if left out.
+
+    Raises
+    ------
+    OutputError
+        One line that says what is in the way, or what is allowed.
+    """
+    if os.path.isdir(path):  # noqa: PTH112 - Path.is_dir raises for a name that is too long
+        raise OutputError(f"{shown(path)}: cannot be written: it is a folder")
+    if endings and path.suffix.lower() not in endings:
+        *others, last = endings
+        allowed = f"{', '.join(others)} or {last}" if others else last
+        raise OutputError(f"{shown(path)}: the name must end with {allowed}")
+    if not os.path.exists(path) or os.path.isfile(path):  # noqa: PTH110, PTH113 - likewise
+        _require_room(path, path.parent)
+
+
+def require_folder(path: Path) -> None:
+    """Refuse a path where no folder of results is or can be made; nothing is made there.
+
+    Raises
+    ------
+    OutputError
+        One line that says what is in the way.
+    """
+    if path.anchor and path == Path(path.anchor):
+        raise OutputError(f"{shown(path)}: cannot be written: it is the root of all files; name a folder")
+    _require_room(path, path)
+
+
+def _require_room(path: Path, folder: Path) -> None:
+    """Refuse `path` unless a file can be made in `folder`, or in the nearest folder above it that is there."""
+    there = next(above for above in (folder, *folder.parents) if os.path.lexists(above))
+    try:
+        if not there.is_dir():
+            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
+        for name in (path, *(there / part for part in path.relative_to(there).parts)):
+            with suppress(FileNotFoundError):
+                name.lstat()  # a name that is too long
+        with tempfile.TemporaryFile(dir=there):
+            pass
+    except OSError as error:
+        raise OutputError(f"{shown(path)}: cannot be written: {error.strerror or error}") from error
+
+
+def shown(path: Path) -> str:
+    """A path as a message names it: on one line, of a sensible length."""
+    text = str(path) if str(path).isprintable() else repr(str(path))
+    half = _LONGEST_SHOWN // 2 - 2
+    return text if len(text) <= _LONGEST_SHOWN else f"{text[:half]}...{text[-half:]}"
 
 
 def write_whole(path: Path, content: bytes | str) -> None:
@@ -36,10 +100,10 @@ def whole_file(path: Path) -> Iterator[Path]:
         # a device, a pipe, a link: written into, never replaced
         special = path.is_symlink() or (path.exists() and not (path.is_file() or path.is_dir()))
         if path.is_dir():
-            raise OutputError(f"{path}: cannot be written: it is a folder")
+            raise OutputError(f"{shown(path)}: cannot be written: it is a folder")
         folder = Path(tempfile.gettempdir()) if special else path.parent
         folder.mkdir(parents=True, exist_ok=True)
-        descriptor, name = tempfile.mkstemp(dir=folder, prefix=f".{path.name}.", suffix=".part")
+        descriptor, name = tempfile.mkstemp(dir=folder, prefix=".", suffix=".part")
         os.close(descriptor)
         temporary = Path(name)
         yield temporary
@@ -50,7 +114,7 @@ def whole_file(path: Path) -> Iterator[Path]:
         else:
             _take_place(temporary, path)
     except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
+        raise OutputError(f"{shown(path)}: cannot be written: {error.strerror or error}") from error
     finally:
         if temporary is not None:
             temporary.unlink(missing_ok=True)

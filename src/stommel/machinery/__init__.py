@@ -1,1 +1,1 @@
-"""What the metal does: buoyancy engine, drives and power, as design, simulation and bench share them."""
+"""What the metal does: buoyancy engine, drives, power and pressure hull, as design, simulation and bench share them."""

@@ -1,4 +1,4 @@
-"""The tables of a mission file on what the vehicle is told: where to go, how to dive, how to steer."""
+"""The plan: what a vehicle is told of its mission, in the words of its file."""
 
 from typing import Annotated, Literal, Self
 
@@ -61,14 +61,6 @@ class Surfacing(Table):
     """Ballast volume that raises the antenna; the engine's greatest if left out."""
     depth_m: Positive = 1.0
     """The vehicle counts as surfaced when it is no deeper than this."""
-
-
-class Ballasting(Table):
-    """How the vehicle was trimmed before the mission."""
-
-    neutral_depth_m: NotNegative | None = None
-    """Depth at the start at which it is neutral with no ballast volume; if left out, it is neutral
-    in the middle of the densities it meets."""
 
 
 class Guidance(Table):
@@ -149,3 +141,28 @@ class Sampling(Table):
         "ascent",
     )
     """Phases of the dive in which it is on."""
+
+
+class Plan(Table):
+    """A plan, as its file describes it; a vehicle needs nothing else to fly its mission."""
+
+    format: Literal[1] = 1
+    name: Annotated[str, Field(min_length=1)]
+    waypoints: tuple[Position, ...] = ()
+    dives: Dives
+    surface: Surfacing = Surfacing()
+    guidance: Guidance = Guidance()
+    abort: Aborts = Aborts()
+    pitch_control: PitchControl = PitchControl()
+    heading_control: HeadingControl = HeadingControl()
+    drift_control: DriftControl = DriftControl()
+    sampling: Sampling = Sampling()
+
+    @model_validator(mode="after")
+    def _waits_long_enough(self) -> Self:
+        if self.surface.longest_s < self.surface.session_s:
+            raise ValueError(
+                f"surface.longest_s = {self.surface.longest_s:g}: must not be less than surface.session_s = "
+                f"{self.surface.session_s:g}"
+            )
+        return self

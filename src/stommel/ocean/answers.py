@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isinf
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -75,6 +76,22 @@ class Sample:
     """[m]; infinite where the ocean has no bottom."""
     held: bool
     """The point lies outside the data, and the ocean's policy answered."""
+
+    def as_row(self) -> dict[str, Any]:
+        """The water in words with units; no bottom where the ocean has none."""
+        return {
+            "density_kg_m3": self.density,
+            "pressure_dbar": self.pressure / PASCAL_PER_DECIBAR,
+            "temperature_c": self.temperature,
+            "conservative_temperature_c": self.conservative_temperature,
+            "absolute_salinity_g_kg": self.absolute_salinity,
+            "sound_speed_m_s": self.sound_speed,
+            "freezing_temperature_c": self.freezing_temperature,
+            "current_east_m_s": self.current_east,
+            "current_north_m_s": self.current_north,
+            "bottom_m": None if isinf(self.bottom_depth) else self.bottom_depth,
+            "held": self.held,
+        }
 
 
 def sample_of(row: NDArray[np.float64], bottom: float, *, held: bool) -> Sample:

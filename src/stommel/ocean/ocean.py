@@ -63,7 +63,7 @@ class Ocean:
         outside_time: str | None = None,
         climatology: "Ocean | Source | None" = None,
         blend_km: float = BLEND_KM,
-        blend_h: float = BLEND_H,
+        blend_hours: float = BLEND_H,
         bounds: Region | None = None,
         between: tuple[Time, Time] | None = None,
         yearly: bool | None = None,
@@ -94,7 +94,7 @@ class Ocean:
         climatology
             A second ocean, its file, or the name of an analytic one. A file is cut to the region of this ocean and
             10 deg around it, and repeats every year if it says that it is a climatology, else its times are held.
-        blend_km, blend_h
+        blend_km, blend_hours
             Beyond the edge of the data and their times, over which the nearest values give way to the climatology.
         bounds
             South, north, west, east of the region to read [deg]; all of the file if left out.
@@ -116,7 +116,7 @@ class Ocean:
         UnknownOceanError
             A policy, name or option is unknown, or does not fit.
         """
-        from stommel.ocean.reading.opening import open_ocean  # noqa: PLC0415 - xarray takes time to load
+        from stommel.ocean.opening import open_ocean  # noqa: PLC0415 - xarray takes time to load
 
         policy(outside)  # a wrong word is said before a large file is read
         at_times = policy(outside if outside_time is None else outside_time, "outside_time")
@@ -125,7 +125,7 @@ class Ocean:
             mean_slot=at_times == CLIMATOLOGY and climatology is None, beyond=at_times != ERROR,
         )  # fmt: skip
         return cls(*found).with_outside(
-            outside, outside_time, climatology=climatology, blend_km=blend_km, blend_h=blend_h, folder=folder
+            outside, outside_time, climatology=climatology, blend_km=blend_km, blend_hours=blend_hours, folder=folder
         )
 
     @classmethod
@@ -149,7 +149,7 @@ class Ocean:
         *,
         climatology: "Ocean | Source | None" = None,
         blend_km: float = BLEND_KM,
-        blend_h: float = BLEND_H,
+        blend_hours: float = BLEND_H,
         folder: Path | None = None,
     ) -> Self:
         """Return the ocean with other policies outside its data; the arguments are those of `open`.
@@ -161,7 +161,7 @@ class Ocean:
         """
         space = policy(outside)
         time = space if outside_time is None else policy(outside_time, "outside_time")
-        for key, value in (("blend_km", blend_km), ("blend_h", blend_h)):
+        for key, value in (("blend_km", blend_km), ("blend_hours", blend_hours)):
             if not 0.0 <= value < np.inf:
                 raise UnknownOceanError(f"{key} = {value:g}: must be at least 0")
         if climatology is None:
@@ -171,12 +171,12 @@ class Ocean:
         else:
             raise UnknownOceanError('climatology: is only used with outside or outside_time = "climatology"')
         data = with_policies(
-            self.data, space, time, second.data if second is not None else None, 1e3 * blend_km, 3600.0 * blend_h
+            self.data, space, time, second.data if second is not None else None, 1e3 * blend_km, 3600.0 * blend_hours
         )
         notes = dict(self.notes)
         if CLIMATOLOGY in (space, time):
             behind = second.name if second is not None else "the mean of this ocean"
-            notes["climatology"] = f"{behind}, reached {blend_km:g} km and {blend_h:g} h beyond the data"
+            notes["climatology"] = f"{behind}, reached {blend_km:g} km and {blend_hours:g} h beyond the data"
             notes |= {f"climatology, {key}": text for key, text in (second.notes if second else {}).items()}
         return type(self)(self.name, data, notes)
 

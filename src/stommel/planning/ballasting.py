@@ -15,10 +15,9 @@ from stommel.errors import StommelError
 from stommel.geometry.vectors import Vector
 from stommel.ocean.kernel.column import fill_column
 from stommel.ocean.kernel.grid import RHO, TEMPERATURE, P, new_cell, new_column
-from stommel.planning.mission import Mission
+from stommel.planning.deployment import Deployment
 from stommel.seawater.water import Water
-from stommel.simulation.plant.parameters import Plant
-from stommel.vehicle import PHYSICS, Vehicle
+from stommel.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 
@@ -27,22 +26,22 @@ _DEPTHS = 41
 """At which the water of a dive is looked at."""
 
 
-def ballasted(mission: Mission) -> Vehicle:
+def ballasted(deployment: Deployment) -> Vehicle:
     """Trim the vehicle neutral in the water it will fly in, as before any deployment.
 
     At `ballasting.neutral_depth_m`; if that is left out, in the middle of what the buoyancy engine must follow.
     """
-    plan, vehicle = mission.plan, mission.vehicle
-    depth = plan.ballasting.neutral_depth_m
+    vehicle = deployment.vehicle
+    depth = deployment.neutral_depth_m
     if depth is None:
-        volumes = neutral_volumes(mission)
+        volumes = neutral_volumes(deployment)
         middle = 0.5 * float(volumes.min() + volumes.max())
-        neutral_volume = vehicle.description.mass_kg / vehicle.description.water.density_kg_m3 + middle
-        return vehicle.with_value("water.density_kg_m3", vehicle.description.mass_kg / neutral_volume)
-    here = mission.ocean.at(plan.start_seconds, plan.start.latitude_deg, plan.start.longitude_deg, depth)
-    record = pack(vehicle, PHYSICS[plan.physics])
+        neutral_volume = vehicle.description.mass_kg / vehicle.neutral_density_kg_m3 + middle
+        return vehicle.trimmed_for(vehicle.description.mass_kg / neutral_volume)
+    here = deployment.ocean.at(deployment.time, deployment.latitude_deg, deployment.longitude_deg, depth)
+    record = pack(vehicle, deployment.physics)
     yielded = _yielded(record, here.pressure, here.temperature)
-    return vehicle.with_value("water.density_kg_m3", float(here.density * yielded))
+    return vehicle.trimmed_for(float(here.density * yielded))
 
 
 def _yielded(record: np.record, pressure: Any, temperature: Any) -> Any:
@@ -50,41 +49,39 @@ def _yielded(record: np.record, pressure: Any, temperature: Any) -> Any:
     return 1.0 - record.kappa * pressure + record.alpha_T * (temperature - record.T_0)
 
 
-def neutral_volumes(mission: Mission) -> Array:
+def neutral_volumes(deployment: Deployment) -> Array:
     """Ballast volumes at which the vehicle is neutral from the surface to the dive depth, at the start [m3]."""
-    plan, record = mission.plan, pack(mission.vehicle, PHYSICS[mission.plan.physics])
-    water = _water_below(mission, plan.dives.depth_m)
+    plan, record = deployment.plan, pack(deployment.vehicle, deployment.physics)
+    water = _water_below(deployment, plan.dives.depth_m)
     hull = _yielded(record, water[:, P], water[:, TEMPERATURE])
     volumes: Array = record.m / water[:, RHO] - record.V_0 * hull
     return volumes
 
 
-def _water_below(mission: Mission, depth: float) -> Array:
+def _water_below(deployment: Deployment, depth: float) -> Array:
     """Rows of an ocean column from the surface to `depth` [m] at the start."""
-    plan, ocean = mission.plan, mission.ocean
-    latitude, longitude = plan.start.latitude_deg, plan.start.longitude_deg
-    ocean.at(plan.start_seconds, latitude, longitude, depth)  # says so if there is no such water
+    ocean = deployment.ocean
+    latitude, longitude = deployment.latitude_deg, deployment.longitude_deg
+    ocean.at(deployment.time, latitude, longitude, depth)  # says so if there is no such water
     column = new_column(ocean.grid(), depth, depth / (_DEPTHS - 1))
-    fill_column(
-        ocean.grid(), ocean.table, plan.start_seconds, radians(latitude), radians(longitude), new_cell(), column
-    )
+    fill_column(ocean.grid(), ocean.table, deployment.time, radians(latitude), radians(longitude), new_cell(), column)
     return column.values
 
 
-def drives(mission: Mission) -> tuple[float, float]:
+def drives(deployment: Deployment) -> tuple[float, float]:
     """Ballast volumes beyond neutral, down and up, that drive the dives: given, or of the wanted speed [m3]."""
-    dives = mission.plan.dives
+    dives = deployment.plan.dives
     if dives.ballast_ml is not None:
         return dives.ballast_ml / 1e6, dives.ballast_ml / 1e6
     assert dives.speed_m_s is not None
     down, up = (
-        trim(mission.vehicle, speed_m_s=dives.speed_m_s, pitch_deg=pitch, physics=PHYSICS[mission.plan.physics]).V_b
+        trim(deployment.vehicle, speed_m_s=dives.speed_m_s, pitch_deg=pitch, physics=deployment.physics).V_b
         for pitch in (-dives.pitch_deg, dives.pitch_deg)
     )
     return abs(down), abs(up)
 
 
-def ballast_volumes(mission: Mission, plant: Plant, neutral: Array) -> tuple[float, float]:
+def ballast_volumes(deployment: Deployment, neutral: Array) -> tuple[float, float]:
     """Ballast volumes of descent and ascent [m3], so that the vehicle keeps its drive through all of the water.
 
     `neutral` are the `neutral_volumes` of the dive.
@@ -98,36 +95,37 @@ def ballast_volumes(mission: Mission, plant: Plant, neutral: Array) -> tuple[flo
         The density of the water varies more than the buoyancy engine can follow, or the vehicle is trimmed so far from
         it that it would dive with oil outside: the flight software takes the sign of the volume for the way.
     """
-    dives, (drive_down, drive_up) = mission.plan.dives, drives(mission)
+    dives, (drive_down, drive_up) = deployment.plan.dives, drives(deployment)
+    low, high = deployment.ballast_range
     down, up = float(neutral.min()) - drive_down, float(neutral.max()) + drive_up
-    if down < plant.ballast_low - 1e-9 or up > plant.ballast_high + 1e-9:
+    if down < low - 1e-9 or up > high + 1e-9:
         raise StommelError(
-            f"{mission.origin}: dives: the water between 0 and {dives.depth_m:g} m is neutral from "
+            f"{deployment.origin}: dives: the water between 0 and {dives.depth_m:g} m is neutral from "
             f"{neutral.min() * 1e6:.0f} to {neutral.max() * 1e6:.0f} ml; with the wanted drive the engine needs "
-            f"{down * 1e6:.0f} to {up * 1e6:.0f} ml and has {plant.ballast_low * 1e6:.0f} to "
-            f"{plant.ballast_high * 1e6:.0f} ml: dive slower, shallower, or set ballasting.neutral_depth_m"
+            f"{down * 1e6:.0f} to {up * 1e6:.0f} ml and has {low * 1e6:.0f} to "
+            f"{high * 1e6:.0f} ml: dive slower, shallower, or set ballasting.neutral_depth_m"
         )
     if down >= 0.0 or up <= 0.0:
         raise StommelError(
-            f"{mission.origin}: ballasting.neutral_depth_m: trimmed there, it would dive with {down * 1e6:.0f} "
+            f"{deployment.origin}: ballasting.neutral_depth_m: trimmed there, it would dive with {down * 1e6:.0f} "
             f"and climb with {up * 1e6:.0f} ml; needed are less and more than 0 ml: choose a depth between 0 and "
             f"{dives.depth_m:g} m, or leave it out"
         )
     return down, up
 
 
-def mass_position_at_rest(mission: Mission, plant: Plant, V_b: float, theta: float) -> float:
+def mass_position_at_rest(deployment: Deployment, V_b: float, theta: float) -> float:
     """Moving-mass position at which the vehicle rests at pitch `theta` [rad] with ballast volume `V_b` [m3]; [m].
 
     Gravity and the bladder's buoyancy balance about the centre of buoyancy; the limit switches bound the answer.
     """
-    record, water = pack(mission.vehicle, PHYSICS[mission.plan.physics]), reference_water(mission.vehicle)
+    record, water = pack(deployment.vehicle, deployment.physics), reference_water(deployment.vehicle)
     # the moment is linear in the position: two looks tell it all
     a, b = (_moment_at_rest(record, water, r_px, V_b) for r_px in (0.0, 1.0))
     tangent = np.tan(theta)
     # at rest tan(theta) = -s_1 / s_3
     r_px = -(a[0] + tangent * a[2]) / ((b[0] - a[0]) + tangent * (b[2] - a[2]))
-    return float(np.clip(r_px, plant.mass_low, plant.mass_high))
+    return float(np.clip(r_px, *deployment.mass_range))
 
 
 @compiled

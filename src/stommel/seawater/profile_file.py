@@ -1,6 +1,5 @@
 """Stratification from a file: CSV whose column names declare quantity and unit."""
 
-import csv
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -8,6 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.errors import FileError, Problem
+from stommel.files.delimited import Delimited, read_delimited
+from stommel.files.sentences import shown
 from stommel.seawater import properties
 from stommel.seawater.stratification import Stratification
 
@@ -49,47 +50,34 @@ def read_stratification(
         The file cannot be read, a column is missing, or a number is impossible; every problem is listed.
     """
     name = str(path)
-    try:
-        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise FileError([Problem(name, "", f"cannot be read: {reason}")]) from error
-    data = _numbers(name, lines, dict(columns or {}))
+    data = _numbers(read_delimited(path), dict(columns or {}))
     problems = [*_missing(name, data), *_impossible(name, data)]
     if problems:
         raise FileError(problems)
     return _stratification(name, data, latitude, longitude)
 
 
-def _numbers(name: str, lines: list[str], columns: dict[str, str]) -> dict[str, NDArray[np.float64]]:
+def _numbers(table: Delimited, columns: dict[str, str]) -> dict[str, NDArray[np.float64]]:
+    name, header = table.file, table.header
     unknown = sorted(set(columns) - set(KNOWN))
     if unknown:
         raise FileError([Problem(name, unknown[0], f"columns: unknown name {unknown[0]}; known: {', '.join(KNOWN)}")])
-    kept = [(number, line) for number, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
-    if not kept:
-        raise FileError([Problem(name, "", "is empty; a profile needs a line of column names and one of numbers")])
-    rows = list(csv.reader(line for _, line in kept))
-    header = [cell.strip() for cell in rows[0]]
-    wanted = {key: columns.get(key, key) for key in KNOWN}
     absent = [f"{key} = {columns[key]!r}" for key in columns if columns[key] not in header]
     if absent:
         raise FileError([Problem(name, "", f"no column {absent[0]}; there are: {', '.join(header)}")])
-    found: dict[str, NDArray[np.float64]] = {}
-    for key, title in wanted.items():
-        if title in header:
-            place = header.index(title)
-            found[key] = np.array(
-                [_number(name, line, title, row, place) for (line, _), row in zip(kept[1:], rows[1:], strict=True)]
-            )
-    return found
+    wanted = {key: columns.get(key, key) for key in KNOWN}
+    return {key: _column(table, title) for key, title in wanted.items() if title in header}
 
 
-def _number(name: str, line: int, title: str, row: list[str], place: int) -> float:
-    try:
-        return float(row[place])
-    except (IndexError, ValueError):
-        shown = row[place] if place < len(row) else ""
-        raise FileError([Problem(name, title, f"line {line}: {title} = {shown!r}: must be a number")]) from None
+def _column(table: Delimited, title: str) -> NDArray[np.float64]:
+    values = []
+    for row, cell in zip(table.lines, table.cells(title), strict=True):
+        try:
+            values.append(float(cell))
+        except ValueError:
+            text = f"row {row}: {title} = {shown(cell)}: must be a number"
+            raise FileError([Problem(table.file, title, text)]) from None
+    return np.array(values)
 
 
 def _missing(name: str, data: Mapping[str, NDArray[np.float64]]) -> list[Problem]:
@@ -100,8 +88,6 @@ def _missing(name: str, data: Mapping[str, NDArray[np.float64]]) -> list[Problem
             problems.append(Problem(name, present[1], f"{' and '.join(present)}: only one {what} column is allowed"))
         if not present and (what == "vertical" or DENSITY not in data):
             problems.append(Problem(name, group[0], f"no {what} column; add one of {', '.join(group)}"))
-    if not problems and next(iter(data.values())).size == 0:
-        problems.append(Problem(name, "", "has column names but no numbers"))
     return problems
 
 

@@ -6,58 +6,32 @@ from typing import NamedTuple
 import numpy as np
 
 from stommel.compilation import compiled, inlined
-from stommel.control.dive_cycle import (
-    INFLECTION,
-    MISSION_COMPLETE,
-    NOTHING,
-    OUTSIDE_DATA,
-    RECOVERY,
-    SURFACE,
-    DivePlan,
-    Readings,
-)
-from stommel.control.flight_table import FlightTable, look_up
+from stommel.control.commands import ABORTED, COMPLETE, Commands
+from stommel.control.decision import decision
+from stommel.control.dive_cycle import INFLECTION, NOTHING, RECOVERY, SURFACE
+from stommel.control.orders import Orders
+from stommel.control.readings import Readings
 from stommel.dynamics.equations import state_from_array
-from stommel.dynamics.state import STATE_SIZE
+from stommel.dynamics.state import DEPTH, R_PX, STATE_SIZE, V_B
 from stommel.geometry.attitude import attitude_of
-from stommel.geometry.earth import metres_per_radian
+from stommel.geometry.earth import metres_per_radian, to_waypoint
 from stommel.ocean.kernel.column import fill_column, water_at
 from stommel.ocean.kernel.grid import BOTTOM, HELD, LAND, TIME, Column, OceanGrid
 from stommel.seawater.table import DensityTable
-from stommel.simulation.memory import CELL, Log
+from stommel.seawater.water import Water
+from stommel.simulation.log import CELL, OUTSIDE_DATA, Log
 from stommel.simulation.plant.actuators import actuate
-from stommel.simulation.plant.hull_air import antenna_emerges, hold_air
+from stommel.simulation.plant.hull_air import AIR_PERIOD, Hull, hold_air
 from stommel.simulation.plant.motion import advance
-from stommel.simulation.plant.parameters import Loop, Plant
-from stommel.simulation.plant.power import consume, measured_power
-from stommel.simulation.plant.sensing import (
-    altimeter,
-    compass,
-    depth_sensor,
-    feel_temperature,
-    fix,
-    late,
-    measured_internal_pressure,
-)
-from stommel.simulation.plant.sensors import Alarms, Hull, Sensors, Waves
-from stommel.simulation.results.rows import write_event, write_row, write_sample, write_surfacing
-from stommel.simulation.software import (
-    Laws,
-    command,
-    decide_phase,
-    follow_heading,
-    guide,
-    leave_surface,
-    receive,
-    reckon,
-    surface,
-    watch,
-)
+from stommel.simulation.plant.parameters import Plant
+from stommel.simulation.plant.power import consume
+from stommel.simulation.plant.sensing import feel_temperature, listen, sense
+from stommel.simulation.plant.sensors import Sensors
+from stommel.simulation.plant.waves import Waves, antenna_emerges
+from stommel.simulation.timing import Loop
+from stommel.simulation.writing import write_event, write_row, write_sample, write_surfacing
 
-GUIDANCE_PERIOD = 10.0
-"""Between two looks at the waypoint [s]."""
-
-RUNNING, FINISHED, OUT_OF_BATTERY, OUT_OF_OCEAN, ASHORE, NOT_FINITE, ABORTED, LOST = range(8)
+RUNNING, FINISHED, OUT_OF_BATTERY, OUT_OF_OCEAN, ASHORE, NOT_FINITE, ABORTED_MISSION, LOST = range(8)
 OUTCOMES = (
     "time over",
     "mission complete",
@@ -81,21 +55,6 @@ class Equipment(NamedTuple):
     hull: Hull
 
 
-class Orders(NamedTuple):
-    """What the vehicle's software is told."""
-
-    dives: DivePlan
-    laws: Laws
-    table: FlightTable
-    waypoints: np.ndarray
-    """Latitude and longitude [rad] (n x 2)."""
-    radius: float
-    """Distance at which a waypoint is reached [m]."""
-    lookahead: float
-    """How far ahead on the line to aim [m]."""
-    alarms: Alarms
-
-
 class Sea(NamedTuple):
     """The water to fly in."""
 
@@ -105,34 +64,157 @@ class Sea(NamedTuple):
 
 
 @inlined
-def _receive(sea, equipment, x, software, world, noise, t, step):  # type: ignore[no-untyped-def]  # compiled only
-    """Listen to GPS at the surface while the antenna is dry."""
-    if not world.afloat:
-        return
-    theta = attitude_of(state_from_array(x).Q).theta
-    if not antenna_emerges(sea.waves, equipment.plant.antenna, theta, t):
-        return
-    software.received += step
-    if software.received >= equipment.sensors.first_fix_time:
-        metres = metres_per_radian(world.latitude)
-        latitude, longitude = fix(equipment.sensors, world.latitude, world.longitude, metres, noise)
-        receive(software, t, latitude, longitude)
+def _look_around(sea, loop, column, x, memory, world, log, tick):  # type: ignore[no-untyped-def]  # compiled only
+    """Look up the ocean around the vehicle, once in a while; returns RUNNING or how the mission ended."""
+    step = loop.control_step
+    if tick % max(1, round(loop.column_period / step)) != 0:
+        return RUNNING
+    t = tick * step
+    cell = log.counts[CELL]
+    status = fill_column(sea.grid, sea.density, loop.start + t, world.latitude, world.longitude, cell, column)
+    if status > HELD:
+        return ASHORE if status == LAND else OUT_OF_OCEAN
+    if status == HELD and not world.outside:
+        write_event(log, t, memory, world, x[DEPTH], float(OUTSIDE_DATA))
+    world.outside = int(status == HELD)
+    return RUNNING
 
 
 @inlined
-def _phase_changed(log, software, world, t, depth):  # type: ignore[no-untyped-def]  # compiled only
-    """Write the event down; open and close the accounts of a dive."""
-    world.moved_at = t
+def _water_here(loop: Loop, column: Column, x: np.ndarray, t: float) -> Water:
+    return water_at(column, x[DEPTH], loop.start + t - column.place[TIME])
+
+
+@inlined
+def _sense(equipment, loop, column, x, world, water, noise, tick):  # type: ignore[no-untyped-def]  # compiled only
+    """Let the slow parts of the world follow the water, and read the sensors."""
+    feel_temperature(equipment.sensors, world, water.T)
+    if tick % max(1, round(AIR_PERIOD / loop.control_step)) == 0:
+        world.metres_north, world.metres_east = metres_per_radian(world.latitude)
+        hold_air(equipment.hull, world, water.T, x[V_B])
+    return sense(equipment.sensors, world, x, column.place[BOTTOM], tick, noise)
+
+
+@inlined
+def _note(log, memory, world, before, t, depth):  # type: ignore[no-untyped-def]  # compiled only
+    """Write down a change of phase, and what a stay at the surface told."""
+    if memory.phase == before:
+        return
     # the software remembers the last reason; it is that of this change only where a dive or the mission ends
-    ends = software.phase in (INFLECTION, RECOVERY)
-    write_event(log, t, software, world, depth, software.event if ends else float(NOTHING))
-    if software.phase == SURFACE:
-        surface(software, t, world.latitude, world.longitude)
-    elif software.phase != RECOVERY and software.submerged_since == t:
-        fixed = software.first_fix_at >= 0.0
-        write_surfacing(log, software, world, t, leave_surface(software, t))
-        if fixed:
+    ends = memory.phase in (INFLECTION, RECOVERY)
+    write_event(log, t, memory, world, depth, memory.event if ends else float(NOTHING))
+    if memory.phase == SURFACE:
+        north, east = to_waypoint(memory.latitude, memory.longitude, world.latitude, world.longitude)
+        world.reckoning_error = math.hypot(north, east)
+    elif memory.phase != RECOVERY and before == SURFACE:
+        write_surfacing(log, memory, world, t)
+        if memory.first_fix_at >= 0.0:
             world.current_sum_north = world.current_sum_east = world.current_time = 0.0
+
+
+@inlined
+def _act(equipment, sea, loop, x, world, water, commands, noise, t):  # type: ignore[no-untyped-def]  # compiled only
+    """Do what the software commands: move, switch, listen."""
+    plant, step = equipment.plant, loop.control_step
+    theta = attitude_of(state_from_array(x).Q).theta
+    V_b = x[V_B] + world.leaked
+    done = actuate(plant, world, commands, x[R_PX], V_b, water.P, theta, t, step)
+    consume(plant, world, commands, t, step)
+    dry = world.afloat != 0 and antenna_emerges(sea.waves, plant.antenna, theta, t)
+    listen(equipment.sensors, world, commands.radio, dry, t, step, noise)
+    return done
+
+
+@inlined
+def _write(equipment, loop, column, x, memory, world, water, readings, commands, noise, log, tick):  # type: ignore[no-untyped-def]  # compiled only
+    t = tick * loop.control_step
+    if tick % equipment.sensors.sample_every == 0 and commands.sampling:
+        write_sample(log, t, x, water, memory, world, column)
+    if tick % loop.record_every == 0:
+        age = loop.start + t - column.place[TIME]
+        write_row(log, t, age, x, equipment, memory, world, readings, column, noise)
+
+
+@inlined
+def _outcome(equipment, x, world, commands, t):  # type: ignore[no-untyped-def]  # compiled only
+    """RUNNING, or how the mission ended."""
+    battery = equipment.plant.battery
+    if not math.isfinite(x[DEPTH]) or not math.isfinite(x[7]):
+        return NOT_FINITE
+    if x[DEPTH] > equipment.hull.deepest:
+        return LOST
+    if world.energy_total + battery.self_discharge * t > battery.energy:
+        return OUT_OF_BATTERY
+    if commands.ended == COMPLETE:
+        return FINISHED
+    return ABORTED_MISSION if commands.ended == ABORTED else RUNNING
+
+
+@inlined
+def _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick):  # type: ignore[no-untyped-def]  # compiled only
+    """Meet the water and read the sensors: RUNNING or how the mission ended, and the readings."""
+    outcome: int = _look_around(sea, loop, column, x, memory, world, log, tick)
+    water = _water_here(loop, column, x, tick * loop.control_step)
+    return outcome, _sense(equipment, loop, column, x, world, water, noise, tick)
+
+
+@inlined
+def _obey(  # type: ignore[no-untyped-def]  # compiled only
+    equipment, sea, loop, column, x, k, trial, memory, world, noise, log, readings, commands, before, tick
+):
+    """Act, write and move by the commands; returns RUNNING or how the mission ended."""
+    t = tick * loop.control_step
+    water = _water_here(loop, column, x, t)
+    _note(log, memory, world, before, t, x[DEPTH])
+    done = _act(equipment, sea, loop, x, world, water, commands, noise, t)
+    _write(equipment, loop, column, x, memory, world, water, readings, commands, noise, log, tick)
+    advance(equipment, x, k, trial, world, done, loop, column, t)
+    return _outcome(equipment, x, world, commands, t)
+
+
+@compiled
+def begin_step(
+    equipment: Equipment,
+    sea: Sea,
+    loop: Loop,
+    column: Column,
+    x: np.ndarray,
+    memory: np.record,
+    world: np.record,
+    noise: np.random.Generator,
+    log: Log,
+    tick: int,
+) -> tuple[int, Readings]:
+    """First half of a control step: RUNNING or how the mission ended, and what the sensors say."""
+    outcome, readings = _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick)
+    return outcome, readings
+
+
+@compiled
+def end_step(
+    equipment: Equipment,
+    sea: Sea,
+    loop: Loop,
+    column: Column,
+    x: np.ndarray,
+    memory: np.record,
+    world: np.record,
+    noise: np.random.Generator,
+    log: Log,
+    readings: Readings,
+    commands: Commands,
+    before: float,
+    tick: int,
+) -> int:
+    """Second half of a control step: what the vehicle does of its commands; RUNNING or how the mission ended.
+
+    `before` is the phase that the memory held before the decision.
+    """
+    k, trial = np.empty((4, STATE_SIZE)), np.empty(STATE_SIZE)
+    outcome: int = _obey(
+        equipment, sea, loop, column, x, k, trial, memory, world, noise, log, readings, commands, before, tick
+    )
+    return outcome
 
 
 @compiled
@@ -143,7 +225,7 @@ def fly(
     loop: Loop,
     column: Column,
     x: np.ndarray,
-    software: np.record,
+    memory: np.record,
     world: np.record,
     noise: np.random.Generator,
     log: Log,
@@ -152,66 +234,20 @@ def fly(
 ) -> int:
     """Fly control steps `first_tick` to `last_tick`; returns RUNNING or how the mission ended.
 
-    Ocean column, state `x`, software, world, noise and log are changed in place, so that a long mission is flown in
+    Ocean column, state `x`, memory, world, noise and log are changed in place, so that a long mission is flown in
     pieces with progress between them, with the same result.
     """
-    plan, sensors, plant, step = orders.dives, equipment.sensors, equipment.plant, loop.control_step
     k, trial = np.empty((4, STATE_SIZE)), np.empty(STATE_SIZE)
-    cell = log.counts[CELL]
-    every_column = max(1, round(loop.column_period / step))
-    every_guidance = max(1, round(GUIDANCE_PERIOD / step))
-    cruise = look_up(orders.table, plan.theta, plan.V_b_dive)[2]
-    under_way = software.waypoint < len(orders.waypoints)
+    outcome: int = RUNNING
     for tick in range(first_tick, last_tick):
-        t = tick * step
-        if tick % every_column == 0:
-            status = fill_column(sea.grid, sea.density, loop.start + t, world.latitude, world.longitude, cell, column)
-            if status > HELD:
-                return ASHORE if status == LAND else OUT_OF_OCEAN
-            if status == HELD and not world.outside:
-                write_event(log, t, software, world, x[2], float(OUTSIDE_DATA))
-            world.outside = int(status == HELD)
-        age = loop.start + t - column.place[TIME]
-        water = water_at(column, x[2], age)
-        # sense
-        feel_temperature(sensors, world, water.T)
-        now = compass(sensors, world, state_from_array(x).Q, noise)
-        measured, depth = late(sensors, world, tick, now, depth_sensor(sensors, x[2], noise))
-        altitude = altimeter(sensors, column.place[BOTTOM] - x[2], noise)
-        follow_heading(software, measured.psi, step)
-        # decide
-        if tick % every_guidance == 0:
-            world.metres_north, world.metres_east = metres_per_radian(world.latitude)
-            under_way = guide(software, orders.waypoints, orders.radius, orders.lookahead, cruise)
-            hold_air(equipment.hull, world, water.T, x[15])
-            watch(software, orders.alarms, sensors, world.leaked, measured_internal_pressure(sensors, world))
-        ballast, fixed = x[15] + world.leaked, software.first_fix_at >= 0.0
-        readings = Readings(depth, altitude, ballast, under_way, fixed, software.alarm)
-        if decide_phase(software, plan, t, readings):
-            _phase_changed(log, software, world, t, x[2])
-        commands = command(software, plan, orders.table, orders.laws, t, measured, depth)
-        # act
-        theta = attitude_of(state_from_array(x).Q).theta  # the drive bears the slope that is, not the one measured
-        done = actuate(plant, world, commands, x[13], ballast, water.P, theta, step)
-        at_surface = software.phase in (SURFACE, RECOVERY)
-        consume(plant, world, at_surface, int(software.phase), t - software.surfaced_at, t, step)
-        software.energy_used += measured_power(sensors, world) * step
-        if at_surface:
-            _receive(sea, equipment, x, software, world, noise, t, step)
-        else:
-            reckon(software, orders.table, measured, depth, ballast, t, step)
-        software.depth_before = depth
-        if tick % sensors.sample_every == 0 and sensors.sampled[int(software.phase)] != 0.0:
-            write_sample(log, t, x, water, software, world, column)
-        if tick % loop.record_every == 0:
-            write_row(log, t, age, x, equipment, software, world, measured, depth, column, noise)
-        advance(equipment, x, k, trial, software, world, done, loop, column, t)
-        if not math.isfinite(x[2]) or not math.isfinite(x[7]):
-            return NOT_FINITE
-        if x[2] > equipment.hull.deepest:
-            return LOST
-        if world.energy_total + plant.self_discharge * t > plant.battery_energy:
-            return OUT_OF_BATTERY
-        if software.phase == RECOVERY and t - software.since >= plan.surface_time:
-            return FINISHED if software.event == MISSION_COMPLETE else ABORTED
+        outcome, readings = _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick)
+        if outcome != RUNNING:
+            return outcome
+        before = memory.phase
+        commands = decision(memory, orders, readings, tick * loop.control_step)
+        outcome = _obey(
+            equipment, sea, loop, column, x, k, trial, memory, world, noise, log, readings, commands, before, tick
+        )
+        if outcome != RUNNING:
+            return outcome
     return RUNNING

@@ -8,7 +8,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
 
-from stommel.errors import OutputError
+from stommel.errors import FileError, OutputError
+from stommel.files.opening import TABLE_MIB, read_text
 from stommel.files.whole import write_whole
 from stommel.studies.errors import StudyError
 
@@ -89,7 +90,9 @@ class Journal:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+        found: dict[str, Any] = json.loads(read_text(path, TABLE_MIB))
+    except FileError as error:
+        raise StudyError(f"{error}; delete it to fly that run again") from None
+    except ValueError as error:
         raise StudyError(f"{path}: cannot be read: {error}; delete it to fly that run again") from error
     return found

@@ -6,14 +6,13 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
-from stommel.errors import StommelError
-from stommel.files.sentences import sentences
+from stommel.errors import FileError, StommelError
+from stommel.files.sentences import validated
 from stommel.ocean.analytic.catalogue import ANALYTIC
 from stommel.ocean.analytic.profile import ProfileOcean
 from stommel.ocean.answers import is_profile
-from stommel.simulation.scenario.mission_file import MissionFile
+from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.simulation.scenario.world_tables import OceanChoice
 from stommel.studies.errors import StudyError
 from stommel.studies.kit import RunKit, Target, put
@@ -140,6 +139,6 @@ def _try(kit: RunKit, target: Target, value: Value) -> None:
     document = copy.deepcopy(dict(kit.document))
     put(document, target, value)
     try:
-        MissionFile.model_validate(document)
-    except ValidationError as error:
-        raise StudyError(sentences(error, MissionFile)[0][1]) from None
+        validated(document, ScenarioFile, kit.origin)
+    except FileError as error:
+        raise StudyError(error.problems[0].message) from None

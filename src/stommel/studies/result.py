@@ -1,6 +1,7 @@
 """The result of a study: one Dataset, in NetCDF or Zarr, whole or not at all."""
 
 import json
+import os
 import shutil
 import tempfile
 from collections.abc import Mapping
@@ -11,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.errors import OutputError
-from stommel.files.sentences import unit_of
-from stommel.files.whole import write_whole
+from stommel.files.units import unit_of
+from stommel.files.whole import require_file, write_whole
 from stommel.studies.errors import StudyError
 from stommel.studies.sampling import sweep_values
 from stommel.studies.sensitivity import Sensitivity, sensitivity_of
@@ -128,9 +129,16 @@ def _column(values: list[Any]) -> NDArray[Any]:
     return np.array(values, dtype=object if isinstance(values[0], str) else np.float64)
 
 
+_CF_UNITS = {"degrees": "degree", "deg C": "degree_C", "r/min": "rpm", "psu": "1"}
+"""As the units library of NetCDF spells what people write otherwise."""
+
+
 def _about(name: str) -> dict[str, str]:
-    unit = unit_of(name)
-    return {"units": unit} if unit is not None else {}
+    """Unit of a parameter or output; of a number in a table of the summary, as energy_wh_pump, the table says it."""
+    parts = name.split("_")
+    tables = ["_".join(parts[:count]) for count in range(len(parts), 0, -1)]
+    unit = next((unit for table in tables if (unit := unit_of(table)) is not None), None)
+    return {"units": _CF_UNITS.get(unit, unit)} if unit is not None else {}
 
 
 def _sensitivity(found: Sensitivity) -> dict[str, Any]:
@@ -164,12 +172,14 @@ def check_output(path: Path) -> None:
     OutputError
         The ending is unknown, or something else than a result stands there.
     """
-    if path.suffix not in ENDINGS:
-        raise OutputError(f"{path}: the name must end with {' or '.join(ENDINGS)}")
-    if path.suffix == ".nc" and path.is_dir():
-        raise OutputError(f"{path}: cannot be written: it is a folder")
-    if path.suffix == ".zarr" and path.exists() and not (path / ".zgroup").is_file():
+    if not (_is_zarr(path) and os.path.isdir(path)):  # noqa: PTH112 - Path.is_dir raises for a name that is too long
+        require_file(path, ENDINGS)
+    if _is_zarr(path) and path.exists() and not (path / ".zgroup").is_file():
         raise OutputError(f"{path}: cannot be written: something else than a Zarr store stands there")
+
+
+def _is_zarr(path: Path) -> bool:
+    return path.suffix.lower() == ".zarr"
 
 
 def write_result(dataset: "xr.Dataset", path: Path) -> None:
@@ -183,9 +193,9 @@ def write_result(dataset: "xr.Dataset", path: Path) -> None:
     check_output(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.") as folder:
+        with tempfile.TemporaryDirectory(dir=path.parent, prefix=".") as folder:
             made = Path(folder) / "result"
-            if path.suffix == ".zarr":
+            if _is_zarr(path):
                 # format 2: format 3 has no settled form of texts yet
                 dataset.to_zarr(made, mode="w", zarr_format=2, consolidated=True)
                 _replace_folder(made, path, Path(folder) / "before")

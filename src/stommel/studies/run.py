@@ -46,6 +46,36 @@ class Finished:
     kept: int
     """Runs that the journal had from before."""
 
+    def statistics(self) -> dict[str, dict[str, float]]:
+        """Mean, standard deviation and extremes of every output over the runs that were flown."""
+        found = {}
+        for name, values in self.outputs.items():
+            flown = values[np.isfinite(values)]
+            if len(flown):
+                found[name] = {
+                    "mean": float(flown.mean()),
+                    "standard_deviation": float(flown.std(ddof=1)) if len(flown) > 1 else 0.0,
+                    "least": float(flown.min()),
+                    "greatest": float(flown.max()),
+                }
+        return found
+
+    def as_json(self) -> dict[str, Any]:
+        """The study in words, its statistics and sensitivities."""
+        file = self.study.file
+        return {
+            "study": file.name,
+            "kind": file.kind,
+            "runs": len(self.study.values),
+            "flown": self.flown,
+            "kept": self.kept,
+            "failed": [{"run": run, "reason": reason} for run, reason in self.failures],
+            "parameters": dict(zip(self.study.names, (p.key for p in file.parameters), strict=True)),
+            "statistics": self.statistics(),
+            "sensitivity_method": None if self.sensitivity is None else self.sensitivity.method,
+            "sensitivity": {} if self.sensitivity is None else self.sensitivity.as_row(),
+        }
+
 
 def run_study(
     study: Study,

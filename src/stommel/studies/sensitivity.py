@@ -31,6 +31,19 @@ class Sensitivity:
     runs: int
     """Runs that were used."""
 
+    def as_row(self) -> dict[str, dict[str, dict[str, float | None]]]:
+        """Measure, output, parameter; None where an output never changes."""
+        return {
+            measure: {
+                name: {
+                    parameter: float(value) if np.isfinite(value) else None
+                    for parameter, value in zip(self.parameters, row, strict=True)
+                }
+                for name, row in zip(self.outputs, values, strict=True)
+            }
+            for measure, values in self.measures.items()
+        }
+
 
 def sensitivity_of(
     kind: str, names: Sequence[str], values: Array, outputs: Mapping[str, Array], seed: int

@@ -7,16 +7,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 import stommel
 from stommel.errors import FileError, Problem
-from stommel.files.sentences import sentences
-from stommel.files.toml_reader import read_toml
+from stommel.files.opening import beside
+from stommel.files.toml_reader import read_table
 from stommel.ocean.analytic.catalogue import ANALYTIC
 from stommel.ocean.reading.sources import paths_of
-from stommel.planning.mission import Mission
 from stommel.simulation.scenario.loading import load_mission
+from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.shipped import UnknownMissionError, mission_path
 from stommel.studies.errors import StudyError
 from stommel.studies.keys import key_problems, target_of
@@ -66,11 +64,7 @@ def load_study(path: str | Path) -> Study:
         The mission, its vehicle or its ocean cannot be used.
     """
     origin = str(path)
-    try:
-        file = StudyFile.model_validate(read_toml(path))
-    except ValidationError as error:
-        found = sentences(error, StudyFile)
-        raise FileError([Problem(origin, key, text.replace("from_", "from")) for key, text in found]) from None
+    file = read_table(path, StudyFile)
     mission = load_mission(_mission_path(file.mission, Path(path).parent, origin))
     return study_of(file, origin, mission)
 
@@ -86,8 +80,8 @@ def study_of(file: StudyFile, origin: str, mission: Mission) -> Study:
     folder = Path(mission.origin).parent.resolve()
     targets = tuple(target_of(parameter.key) for parameter in file.parameters)
     kit = RunKit(
-        document=_plain(mission.plan.model_dump(exclude={"format"})),
-        vehicle=None if ("vehicle",) in targets else _vehicle(mission.plan.vehicle, folder),
+        document=_plain(mission.scenario.model_dump(exclude={"format"})),
+        vehicle=None if ("vehicle",) in targets else _vehicle(mission.scenario.vehicle, folder),
         folder=folder,
         origin=mission.origin,
         targets=targets,
@@ -102,17 +96,14 @@ def study_of(file: StudyFile, origin: str, mission: Mission) -> Study:
 
 
 def _mission_path(name: str, folder: Path, origin: str) -> Path:
-    if (folder / name).is_file():
-        return folder / name
     try:
-        return mission_path(name)
+        return mission_path(str(beside(folder, name)))
     except UnknownMissionError as error:
         raise FileError([Problem(origin, "mission", str(error))]) from None
 
 
 def _vehicle(name: str, folder: Path) -> Vehicle:
-    beside = folder / name
-    return load_vehicle(beside if beside.is_file() else name)
+    return load_vehicle(beside(folder, name))
 
 
 _TAKEN = ("run", "repeat", "output", "parameter", "seed", "outcome", "failure")

@@ -10,6 +10,7 @@ from stommel.vehicle.loading import (
     load_vehicle,
     stated_numbers,
     vehicle_from_text,
+    vehicle_text,
 )
 from stommel.vehicle.physics import FULL, PAPER, PHYSICS, Physics
 from stommel.vehicle.schema import VehicleFile
@@ -29,4 +30,5 @@ __all__ = [
     "load_vehicle",
     "stated_numbers",
     "vehicle_from_text",
+    "vehicle_text",
 ]

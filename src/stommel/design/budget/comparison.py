@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import radians, tan
+from typing import Any
 
 import numpy as np
 
@@ -39,6 +40,15 @@ class InertiaComparison:
     def possible(self) -> bool:
         """Whether that is an inertia: positive semidefinite."""
         return bool(np.linalg.eigvalsh(self.left_for_water)[0] >= -1e-9)
+
+    def as_row(self) -> dict[str, Any]:
+        """The tensors in words with units."""
+        return {
+            "inertia_kg_m2": self.budget.tolist(),
+            "file_sum_with_water_kg_m2": self.file_sum.tolist(),
+            "left_for_water_kg_m2": self.left_for_water.tolist(),
+            "spheroid_added_inertia_kg_m2": None if self.spheroid is None else list(self.spheroid),
+        }
 
 
 def compare_inertia(vehicle: Vehicle, budget: Budget) -> InertiaComparison:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from math import sqrt
+from typing import Any
 
 from stommel.analysis.trim import trim
 from stommel.errors import StommelError
@@ -28,6 +29,17 @@ class ReserveRow:
     climb_speed: float | None
     """Likewise, upwards."""
 
+    def as_row(self) -> dict[str, float | None]:
+        """The row in words with units."""
+        return {
+            "density_kg_m3": self.rho,
+            "neutral_ballast_ml": self.neutral * 1e6,
+            "to_sink_ml": self.to_dive * 1e6,
+            "to_rise_ml": self.to_climb * 1e6,
+            "dive_speed_m_s": self.dive_speed,
+            "climb_speed_m_s": self.climb_speed,
+        }
+
 
 @dataclass(frozen=True)
 class Reserve:
@@ -49,6 +61,17 @@ class Reserve:
     def least(self) -> float:
         """Least of all reserves [m3]."""
         return min(min(row.to_dive, row.to_climb) for row in self.rows)
+
+    def as_row(self) -> dict[str, Any]:
+        """The reserve in words with units."""
+        return {
+            "trimmed_for_kg_m3": self.trimmed_for,
+            "compression_ml": self.compression * 1e6,
+            "sinks_and_rises_kg_m3": self.sinks_and_rises,
+            "design_speed_m_s": self.design_speed,
+            "flies_kg_m3": self.flies,
+            "rows": [row.as_row() for row in self.rows],
+        }
 
 
 def best_trim_density(vehicle: Vehicle, volume: float, low: float, high: float) -> float:

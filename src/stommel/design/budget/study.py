@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import isfinite
+from typing import Any
 
 from stommel.design.budget.comparison import (
     MASS_TOLERANCE_KG,
@@ -43,6 +44,24 @@ class BudgetStudy:
     def floats(self) -> bool:
         """Whether the vehicle as it is rises in the lightest of the waters with all its ballast volume."""
         return not any(warning.name == "does_not_float" for warning in self.warnings)
+
+    def as_json(self) -> dict[str, Any]:
+        """The study in words with units."""
+        rigid_body = self.budget.rigid_body
+        return {
+            "vehicle": self.vehicle.name,
+            "density_kg_m3": list(self.density),
+            **self.budget.as_row(),
+            "rigid_body": {
+                "mass_kg": rigid_body.mass,
+                "centre_of_mass_m": rigid_body.centre.tolist(),
+                "lowest_possible_centre_m": self.highest_lever,
+                **self.inertia.as_row(),
+            },
+            "trimming": None if self.trimming is None else self.trimming.as_row(),
+            "reserve": None if self.reserve is None else self.reserve.as_row(),
+            "warnings": [warning.as_row() for warning in self.warnings],
+        }
 
 
 def budget_study(

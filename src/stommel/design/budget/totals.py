@@ -1,6 +1,7 @@
 """The budget of a vehicle: bay by bay, in all, and as the three masses of the equations of motion."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -20,6 +21,17 @@ class BayTotal:
     mass: MassProperties
     volume: float
     """Displaced by its parts [m3]."""
+
+    def as_row(self) -> dict[str, Any]:
+        """The bay in words with units; an empty one has no centre."""
+        return {
+            "name": self.name,
+            "flooded": self.flooded,
+            "parts": [part.name for part in self.parts],
+            "mass_kg": self.mass.mass,
+            "displaced_volume_ml": self.volume * 1e6,
+            "centre_of_mass_m": self.mass.centre.tolist() if self.parts else None,
+        }
 
 
 @dataclass(frozen=True)
@@ -45,6 +57,20 @@ class Budget:
     def stability_arm(self) -> float:
         """Centre of mass below centre of buoyancy [m]; negative is top-heavy."""
         return float(self.total.centre[2] - self.centre_of_buoyancy[2])
+
+    def as_row(self) -> dict[str, Any]:
+        """The sums in words with units."""
+        return {
+            "total_mass_kg": self.total.mass,
+            "displaced_volume_ml": self.volume * 1e6,
+            "centre_of_mass_m": self.total.centre.tolist(),
+            "centre_of_buoyancy_m": self.centre_of_buoyancy.tolist(),
+            "stability_arm_mm": self.stability_arm * 1e3,
+            "neutral_density_kg_m3": self.neutral_density,
+            "moving_mass_kg": self.moving.mass,
+            "ballast_kg": self.ballast.mass,
+            "bays": [bay.as_row() for bay in self.bays],
+        }
 
 
 def mass_budget(vehicle: Vehicle) -> Budget:

@@ -8,7 +8,7 @@ so that weights are joined again afterwards.
 
 from dataclasses import dataclass
 from math import pi, sqrt
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -55,6 +55,17 @@ class AddedBody:
         """Water that it displaces [m3]."""
         return self.volume if self.material == "foam" else 0.0
 
+    def as_row(self) -> dict[str, Any]:
+        """The block in words with units."""
+        return {
+            "material": self.material,
+            "part": self.part or None,
+            "bay": self.bay,
+            "mass_kg": self.mass,
+            "volume_ml": self.volume * 1e6,
+            "position_m": list(self.position),
+        }
+
 
 @dataclass(frozen=True)
 class Trimming:
@@ -78,6 +89,18 @@ class Trimming:
     def added_mass(self) -> float:
         """[kg]."""
         return sum(body.mass for body in self.added)
+
+    def as_row(self) -> dict[str, Any]:
+        """The trimming in words with units."""
+        return {
+            "density_kg_m3": self.rho,
+            "surplus_buoyancy_kg": self.surplus,
+            "moment_kg_m": list(self.moment),
+            "added": [body.as_row() for body in self.added],
+            "mass_kg": self.mass,
+            "displaced_volume_ml": self.volume * 1e6,
+            "stability_arm_mm": self.stability_arm * 1e3,
+        }
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import degrees, isfinite, radians
+from math import degrees, isfinite, isinf, radians
+from typing import Any
 
 from stommel.analysis.trim import trim
 from stommel.design.drives.trim_change import TrimChange, pitches_between, trim_change
@@ -48,6 +49,23 @@ class PitchStudy:
         changes = [change for change in (self.dive_to_climb, self.climb_to_dive) if change is not None]
         return sum(c.travel for c in changes) / sum(c.time for c in changes) if changes else None
 
+    def as_row(self) -> dict[str, Any]:
+        """Words with units."""
+        drive = self.drive
+        return {
+            "efficiency": drive.efficiency,
+            "self_locking": drive.self_locking,
+            "screw": drive.screw.as_row(),
+            "worm": drive.worm.as_row() if drive.worm else None,
+            "speed_mm_s": None if self.speed is None else self.speed * 1e3,
+            "file_speed_mm_s": None if self.file_speed is None else self.file_speed * 1e3,
+            "hardest_start": self.worst_start.as_row(),
+            "dive_to_climb": self.dive_to_climb.as_row() if self.dive_to_climb else None,
+            "climb_to_dive": self.climb_to_dive.as_row() if self.climb_to_dive else None,
+            "over_runs": [run.as_row() for run in self.over_runs],
+            "points": [point.as_row() for point in self.points],
+        }
+
 
 @dataclass(frozen=True)
 class RudderStudy:
@@ -73,6 +91,19 @@ class RudderStudy:
         """Mean speed of the full step [rad/s]."""
         return self.full_angle / self.full_step.time if self.full_step else None
 
+    def as_row(self) -> dict[str, Any]:
+        """Words with units; no margin of a brake that holds against nothing."""
+        margin = self.holding_margin
+        return {
+            "speed_through_water_m_s": self.V,
+            "hinge_moment_mn_m": self.hinge_moment * 1e3,
+            "full_step": self.full_step.as_row() if self.full_step else None,
+            "speed_deg_s": None if self.speed is None else degrees(self.speed),
+            "file_speed_deg_s": None if self.file_speed is None else degrees(self.file_speed),
+            "holding_margin": None if margin is None or isinf(margin) else margin,
+            "turn": self.turn.as_row() if self.turn else None,
+        }
+
 
 @dataclass(frozen=True)
 class DriveStudy:
@@ -82,6 +113,15 @@ class DriveStudy:
     pitch: PitchStudy | None
     rudder: RudderStudy | None
     warnings: tuple[NamedWarning, ...]
+
+    def as_json(self) -> dict[str, Any]:
+        """The study in words with units."""
+        return {
+            "vehicle": self.vehicle.name,
+            "pitch": self.pitch.as_row() if self.pitch else None,
+            "rudder": self.rudder.as_row() if self.rudder else None,
+            "warnings": [warning.as_row() for warning in self.warnings],
+        }
 
 
 def drive_study(

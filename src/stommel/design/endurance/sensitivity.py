@@ -7,7 +7,7 @@ from typing import Any
 from stommel.design.endurance.dive_cycle import fed
 from stommel.design.endurance.endurance import Endurance, Wanted, balance, check_dive, quick_flights_of, spent
 from stommel.errors import StommelError
-from stommel.files.sentences import unit_of
+from stommel.files.units import unit_of
 from stommel.machinery.power.actuator_models import ACTUATORS, PLAN_KEYS, Actuator
 from stommel.vehicle import Physics, Provenance, Vehicle
 from stommel.vehicle.schema import Consumer, EnergyPlan
@@ -84,8 +84,7 @@ def assumptions(vehicle: Vehicle, result: Endurance) -> Iterator[Assumption]:
     model, wanted = result.model, result.wanted
 
     def of(key: str, what: str, value: float) -> Assumption:
-        unit = "s" if key.endswith("seconds_per_surfacing") else unit_of(key) or "1"
-        return Assumption(key, what, float(value), unit, vehicle.provenance_of(key))
+        return Assumption(key, what, float(value), unit_of(key) or "1", vehicle.provenance_of(key))
 
     chosen = Provenance("source", "the dive that is asked about")
     yield Assumption("dive.speed_m_s", "speed along the path", wanted.speed_m_s, "m/s", chosen)

@@ -73,7 +73,7 @@ class EnergyStudy:
     gap: Gap | None
     """None where the target is met, or where there is none."""
 
-    def as_row(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Any]:
         """The study in words with units, as `stommel endurance --json` prints it."""
         longest, farthest = self.best.longest, self.best.farthest
         return self.result.as_row() | {

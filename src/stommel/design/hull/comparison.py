@@ -1,15 +1,15 @@
 """Table 4 of the paper beside ours, with each difference explained or named."""
 
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import resources
 from typing import Any
 
-from stommel.design.hull import paper_formulas
-from stommel.design.hull.materials import Material, find_material
 from stommel.design.hull.requirement import Requirement
 from stommel.design.hull.sizing import SizedHull, size
+from stommel.files.toml_reader import parse_toml
+from stommel.machinery.hull import paper_formulas
+from stommel.machinery.hull.materials import Material, find_material
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class PublishedTable:
 
 def published_table(vehicle_file: str) -> PublishedTable | None:
     """Table of hulls published for the vehicle of this built-in file, if there is one."""
-    table = tomllib.loads((resources.files(__package__) / "table4.toml").read_text(encoding="utf-8"))
+    table = parse_toml((resources.files(__package__) / "table4.toml").read_text(encoding="utf-8"), "table4.toml")
     if vehicle_file != table["vehicle"]:
         return None
     return PublishedTable(table["source"], table["chosen"], tuple(table["rows"]))

@@ -4,7 +4,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from stommel.design.hull import paper_formulas
 from stommel.design.hull.sizing import SizedHull, size
 from stommel.design.hull.study import HullStudy
 from stommel.figures.style import (
@@ -20,6 +19,7 @@ from stommel.figures.style import (
     new_figure,
     styled,
 )
+from stommel.machinery.hull import paper_formulas
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

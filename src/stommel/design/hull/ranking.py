@@ -1,6 +1,5 @@
 """Which material first, and why."""
 
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -8,6 +7,7 @@ from importlib import resources
 from math import prod
 
 from stommel.design.hull.sizing import SizedHull
+from stommel.files.toml_reader import parse_toml
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Ranked:
 def weights() -> dict[str, float]:
     """Weight of each criterion, from ranking.toml."""
     text = (resources.files(__package__) / "ranking.toml").read_text(encoding="utf-8")
-    found: dict[str, float] = tomllib.loads(text)["weights"]
+    found: dict[str, float] = parse_toml(text, "ranking.toml")["weights"]
     return found
 
 

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from stommel.design.hull.buckling import RingSection
 from stommel.errors import StommelError
+from stommel.machinery.hull.buckling import RingSection
 from stommel.vehicle import Vehicle
 from stommel.vehicle.schema import Hull
 

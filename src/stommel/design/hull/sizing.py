@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from math import ceil, isinf
 from typing import Any, Literal
 
-from stommel.design.hull import buckling, elasticity, end_caps, paper_formulas
-from stommel.design.hull.materials import Material
 from stommel.design.hull.requirement import HullError, Requirement
-from stommel.design.hull.tube import Tube
+from stommel.design.named_warning import NamedWarning
+from stommel.machinery.hull import buckling, elasticity, end_caps, paper_formulas
+from stommel.machinery.hull.materials import Material
+from stommel.machinery.hull.tube import Tube
 
 STEP_MM = 0.1
 """Walls are rounded up to this, as in Table 4."""
@@ -25,14 +26,6 @@ class Criterion:
     permissible: float
     """The same with the file's safety factors [Pa]."""
     lobes: int | None = None
-
-
-@dataclass(frozen=True)
-class HullWarning:
-    """Something that a designer must not overlook."""
-
-    name: str
-    text: str
 
 
 @dataclass(frozen=True)
@@ -53,7 +46,7 @@ class SizedHull:
     axial_critical_stress: float
     """Eq. (10) [Pa] for the tube."""
     criteria: tuple[Criterion, ...]
-    warnings: tuple[HullWarning, ...]
+    warnings: tuple[NamedWarning, ...]
 
     @property
     def exact_wall(self) -> float:
@@ -124,7 +117,7 @@ class SizedHull:
             "permissible_depth_by": self.limit.name,
             "criteria": [self._criterion_row(criterion) for criterion in self.criteria],
             "end_caps": self._end_caps(),
-            "warnings": [{"name": warning.name, "text": warning.text} for warning in self.warnings],
+            "warnings": [warning.as_row() for warning in self.warnings],
         }
 
     def _criterion_row(self, criterion: Criterion) -> dict[str, Any]:
@@ -227,7 +220,7 @@ def _criteria(tube: Tube, need: Requirement, sigma: float) -> Iterator[Criterion
     yield Criterion("whole wall yields", "classical", plastic, plastic * sigma / material.sigma_fail)
 
 
-def _warnings(tube: Tube, need: Requirement, delta_y: float, delta_bc: float, delta_a: float) -> Iterator[HullWarning]:
+def _warnings(tube: Tube, need: Requirement, delta_y: float, delta_bc: float, delta_a: float) -> Iterator[NamedWarning]:
     walls = {
         paper_formulas.YIELD: delta_y,
         paper_formulas.CIRCUMFERENTIAL: delta_bc,
@@ -235,25 +228,25 @@ def _warnings(tube: Tube, need: Requirement, delta_y: float, delta_bc: float, de
     }
     for name, wall in walls.items():
         if tube.delta < wall - 1e-9:
-            yield HullWarning(
+            yield NamedWarning(
                 "wall too thin",
                 f"{tube.material.name}: wall {tube.delta * 1e3:.4g} mm is less than the {wall * 1e3:.2f} mm that "
                 f"{name} needs at {need.P / 1e6:.4g} MPa",
             )
     if need.D_i is not None and tube.D_i < need.D_i - 1e-9:
-        yield HullWarning(
+        yield NamedWarning(
             "no room",
             f"{tube.material.name}: wall {tube.delta * 1e3:.4g} mm leaves {tube.D_i * 1e3:.4g} mm inside "
             f"{need.D_o * 1e3:.4g} mm; {need.D_i * 1e3:.4g} mm are wanted",
         )
     longest = buckling.critical_length(tube.delta, need.D_o)
     if need.frame_length > longest:
-        yield HullWarning(
+        yield NamedWarning(
             "long tube",
             f"{tube.material.name}: {need.frame_length:.3g} m between joints is longer than the {longest:.3g} m up "
             "to which Eq. (9) holds; trust von Mises' formula",
         )
     if tube.delta > 0.05 * tube.D_o:
-        yield HullWarning(
+        yield NamedWarning(
             "thick wall", f"{tube.material.name}: wall over 5 % of the diameter: thin-shell buckling is rough"
         )

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from stommel.design.hull.comparison import ComparedQuantity, PublishedTable, published_table
-from stommel.design.hull.materials import Material, MaterialError, find_material, load_materials
 from stommel.design.hull.ranking import Ranked, ranked
 from stommel.design.hull.requirement import HullError, Requirement, requirement
-from stommel.design.hull.sizing import HullWarning, SizedHull, size
+from stommel.design.hull.sizing import SizedHull, size
+from stommel.design.named_warning import NamedWarning
+from stommel.machinery.hull.materials import Material, MaterialError, find_material, load_materials
 from stommel.vehicle import Vehicle
 
 _ROUGHLY = 0.1
@@ -31,9 +32,9 @@ class HullStudy:
     """Printed numbers beside computed ones, where any were printed for this vehicle."""
     choice: str
     """Whether the ranking agrees with the published choice; empty where there is none."""
-    warnings: tuple[HullWarning, ...]
+    warnings: tuple[NamedWarning, ...]
 
-    def as_row(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Any]:
         """Quantities in words with units."""
         need = self.requirement
         places = {row.hull.material.name: row for row in self.ranking}
@@ -56,7 +57,7 @@ class HullStudy:
             ],
             "own": self.own.as_row() if self.own is not None else None,
             "published": [row.as_row() for row in self.published],
-            "warnings": [{"name": warning.name, "text": warning.text} for warning in self.warnings],
+            "warnings": [warning.as_row() for warning in self.warnings],
             "choice": self.choice,
             "notes": list(need.notes),
         }
@@ -118,14 +119,14 @@ def hull_study(
 
 def _sized(
     chosen: Sequence[Material], need: Requirement, wall: float | None
-) -> tuple[list[SizedHull], list[HullWarning]]:
+) -> tuple[list[SizedHull], list[NamedWarning]]:
     """Hulls of all materials that can be built at all; the others as warnings, unless it is every one."""
     sized, warnings, last = [], [], None
     for material in chosen:
         try:
             sized.append(size(material, need, wall))
         except HullError as error:
-            warnings.append(HullWarning("no wall", str(error)))
+            warnings.append(NamedWarning("no wall", str(error)))
             last = error
     if not sized and last is not None:
         raise last
@@ -151,7 +152,7 @@ def _distinct(materials: Iterator[Material]) -> tuple[Material, ...]:
 
 def _own(
     vehicle: Vehicle, need: Requirement, known: tuple[Material, ...]
-) -> tuple[SizedHull | None, tuple[HullWarning, ...]]:
+) -> tuple[SizedHull | None, tuple[NamedWarning, ...]]:
     """The hull of the vehicle file, and what is wrong with it."""
     hull = vehicle.description.hull
     assert hull is not None  # the requirement would not be there
@@ -160,32 +161,32 @@ def _own(
     try:
         material = find_material(hull.material, known)
     except MaterialError as error:
-        return None, (HullWarning("unknown material", f"hull.material is not judged: {error}"),)
+        return None, (NamedWarning("unknown material", f"hull.material is not judged: {error}"),)
     own = size(material, need, hull.wall_mm / 1e3)
     return own, (*own.warnings, *_own_warnings(own, vehicle))
 
 
-def _own_warnings(own: SizedHull, vehicle: Vehicle) -> Iterator[HullWarning]:
+def _own_warnings(own: SizedHull, vehicle: Vehicle) -> Iterator[NamedWarning]:
     hull, need = vehicle.description.hull, own.requirement
     assert hull is not None
     if hull.inner_diameter_mm is not None and hull.wall_mm is not None:
         outer = hull.inner_diameter_mm + 2.0 * hull.wall_mm
         if abs(outer - hull.outer_diameter_mm) > 0.05:
-            yield HullWarning(
+            yield NamedWarning(
                 "diameters and wall disagree",
                 f"inner diameter {hull.inner_diameter_mm:g} mm with a wall of {hull.wall_mm:g} mm makes {outer:g} mm "
                 f"outside; the file says {hull.outer_diameter_mm:g} mm. Walls are taken inward from the outer diameter",
             )
     for criterion in own.criteria:
         if criterion.family == "classical" and criterion.permissible < need.P * (1.0 - 1e-9):
-            yield HullWarning(
+            yield NamedWarning(
                 "classical criterion not met",
                 f"{criterion.name}: {criterion.pressure / 1e6:.3g} MPa leaves less than the file's safety factor at "
                 f"{need.P / 1e6:.4g} MPa",
             )
     kappa = own.tube.compressibility
     if hull.compressibility_per_pa > 0.0 and abs(hull.compressibility_per_pa / kappa - 1.0) > _ROUGHLY:
-        yield HullWarning(
+        yield NamedWarning(
             "compressibility",
             f"hull.compressibility_per_pa is {hull.compressibility_per_pa:.3g} in the file; the tube gives "
             f"{kappa:.3g} 1/Pa",

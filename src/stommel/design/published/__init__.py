@@ -1,8 +1,9 @@
 """Published equilibria of built-in vehicles, to stand beside the computed ones."""
 
-import tomllib
 from dataclasses import dataclass
 from importlib import resources
+
+from stommel.files.toml_reader import parse_toml
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ def published_tables(builtin: str | None) -> tuple[PublishedTable, ...]:
     entry = resources.files(__package__) / f"{builtin}.toml"
     if builtin is None or not entry.is_file():
         return ()
-    tables = tomllib.loads(entry.read_text(encoding="utf-8"))["tables"]
+    tables = parse_toml(entry.read_text(encoding="utf-8"), entry.name)["tables"]
     return tuple(
         PublishedTable(table["title"], table["source"], tuple(PublishedRow(*row) for row in table["rows"]))
         for table in tables

@@ -34,6 +34,14 @@ class Helix:
         """Whether no load, however great, turns the thread."""
         return self.friction_angle >= self.lead_angle
 
+    def as_row(self) -> dict[str, float | bool]:
+        """The thread in words."""
+        return {
+            "efficiency": self.efficiency,
+            "back_driving_efficiency": self.back_driving_efficiency,
+            "self_locking": self.self_locking,
+        }
+
     def input_torque(self, ideal: float) -> float:
         """Torque that drives a load which would need `ideal` without friction [N m]."""
         return ideal / self.efficiency if ideal >= 0.0 else ideal * self.back_driving_efficiency  # (eq-d3)

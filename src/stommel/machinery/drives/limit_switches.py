@@ -1,7 +1,7 @@
 """What keeps the moving mass within its travel: software limits, switches, end stops; and what an over-run does."""
 
 from dataclasses import dataclass
-from math import inf
+from math import inf, isinf
 from typing import Literal
 
 from stommel.machinery.drives.pitch import Direction, PitchDrive
@@ -76,6 +76,18 @@ class OverRun:
     def caught(self) -> bool:
         """Whether the switch stops the mass before the end stop does."""
         return self.run_on < self.room
+
+    def as_row(self) -> dict[str, float | str | bool | None]:
+        """Words with units; no way of a mass that nothing slows down."""
+        return {
+            "end": "forward" if self.direction > 0 else "aft",
+            "switch_mm": self.switch * 1e3,
+            "stop_mm": self.stop * 1e3,
+            "run_on_mm": None if isinf(self.run_on) else self.run_on * 1e3,
+            "caught": self.caught,
+            "stall_thrust_n": self.stall_thrust,
+            "stall_current_a": self.stall_current,
+        }
 
 
 def over_run(drive: PitchDrive, limits: LimitSwitches, direction: Direction, steepest: float) -> OverRun:

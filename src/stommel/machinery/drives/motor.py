@@ -45,7 +45,7 @@ class Motor:
     def on_supply(cls, data: DcMotor, supply_v: float | None) -> "Motor":
         """Take a motor's data from a vehicle file; without a supply it runs on its nominal voltage."""
         return cls(
-            K_t=data.torque_constant_mnm_a * 1e-3,
+            K_t=data.torque_constant_mn_m_a * 1e-3,
             R=data.resistance_ohm,
             I_0=data.no_load_current_a,
             U=data.nominal_voltage_v if supply_v is None else supply_v,

@@ -1,7 +1,7 @@
 """Drive of the moving mass at an attitude of the hull: load, torque, speed, power, energy per travel."""
 
 from dataclasses import dataclass, replace
-from math import cos, pi, sin
+from math import cos, degrees, isinf, pi, sin
 from typing import Literal
 
 from stommel.machinery.drives.failures import DriveError
@@ -28,7 +28,7 @@ class PitchPoint:
     starting_torque: float
     """Torque at the motor that breaks the mass loose from rest [N m]."""
     stall_margin: float
-    """Torque that the motor has at rest over the one that it needs."""
+    """Torque that the motor has at rest over the one that it needs; infinite where it needs none."""
 
     @property
     def uphill(self) -> bool:
@@ -44,6 +44,24 @@ class PitchPoint:
     def energy_per_metre(self) -> float | None:
         """Electrical energy for a metre of travel [J/m]; None where the motor stalls."""
         return self.motor.power / self.speed if self.speed > 0.0 else None
+
+    def as_row(self) -> dict[str, float | str | bool | None]:
+        """Words with units; no margin where the load helps, no energy of a motor that stalls."""
+        energy = self.energy_per_metre
+        return {
+            "pitch_deg": round(degrees(self.theta), 9),
+            "direction": "forward" if self.direction > 0 else "aft",
+            "uphill": self.uphill,
+            "load_n": self.load,
+            "torque_mn_m": self.motor.torque * 1e3,
+            "current_a": self.motor.current,
+            "speed_mm_s": self.speed * 1e3,
+            "power_w": self.motor.power,
+            "energy_j_per_mm": None if energy is None else energy / 1e3,
+            "starting_torque_mn_m": self.starting_torque * 1e3,
+            "stall_margin": None if isinf(self.stall_margin) else self.stall_margin,
+            "starts": self.starts,
+        }
 
 
 @dataclass(frozen=True)

@@ -46,7 +46,7 @@ class RudderStep:
             "to_deg": degrees(self.end),
             "time_s": self.time,
             "energy_j": self.energy,
-            "greatest_torque_mnm": self.greatest_torque * 1e3,
+            "greatest_torque_mn_m": self.greatest_torque * 1e3,
             "greatest_current_a": self.greatest_current,
         }
 
@@ -72,6 +72,18 @@ class RudderTurn:
     def energy(self) -> float:
         """Energy of the whole turn [J]."""
         return self.out.energy + self.back.energy + self.brake_energy + self.hold_energy
+
+    def as_row(self) -> dict[str, float]:
+        """Words with units."""
+        return {
+            "angle_deg": degrees(self.angle),
+            "hold_s": self.hold,
+            "energy_j": self.energy,
+            "motor_energy_j": self.out.energy + self.back.energy,
+            "brake_energy_j": self.brake_energy,
+            "brake_energy_per_release_j": self.brake_per_release,
+            "hold_energy_j": self.hold_energy,
+        }
 
 
 @dataclass(frozen=True)
@@ -111,7 +123,7 @@ class RudderDrive:
             brake=data.brake,
             chord=data.chord_mm * 1e-3,
             stock=data.stock_chord_fraction,
-            seal_friction=data.seal_friction_mnm * 1e-3,
+            seal_friction=data.seal_friction_mn_m * 1e-3,
             Y_r=d.rudder.side_force_per_rad_kg_m,
         )
 
@@ -151,7 +163,7 @@ class RudderDrive:
         """What the brake holds over what the water asks of it; None without a brake. Friction is not counted on."""
         if self.brake is None:
             return None
-        held = self.brake.holding_torque_mnm * 1e-3 * self.gearbox.ratio
+        held = self.brake.holding_torque_mn_m * 1e-3 * self.gearbox.ratio
         moment = abs(self.hinge_moment(delta_r, V))
         return held / moment if moment > 0.0 else float("inf")
 

@@ -1,18 +1,18 @@
 """Engines by name: that of a vehicle, one of the examples, or a file with an [engine] of its own."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
-from stommel.errors import FileError, Problem, StommelError
+from stommel.errors import StommelError
 from stommel.files.fields import Table
-from stommel.files.provenance import ProvenanceError, separate
-from stommel.files.sentences import sentences
+from stommel.files.opening import TOML_MIB, names_file, read_text
+from stommel.files.provenance import separate
+from stommel.files.sentences import validated
+from stommel.files.toml_reader import parse_toml
 from stommel.vehicle import Vehicle
 from stommel.vehicle.schema import Engine
 
@@ -71,21 +71,16 @@ def load_engine(name_or_path: str) -> NamedEngine:
     NoEngineError
         Neither an example nor a file.
     FileError
-        The file is not a possible engine; every problem is named.
+        The file cannot be read, or is not a possible engine; every problem is named.
     """
     if name_or_path in example_names():
         text = (resources.files(__package__) / _EXAMPLES / f"{name_or_path}.toml").read_text(encoding="utf-8")
         return engine_from_text(text, f"{name_or_path}.toml")
-    path = Path(name_or_path)
-    if not path.is_file():
+    if not names_file(name_or_path):
         raise NoEngineError(
             f"engine {name_or_path!r} is neither an example nor a file; examples: {', '.join(example_names())}"
         )
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileError([Problem(name_or_path, "", f"cannot be read: {error}")]) from error
-    return engine_from_text(text, name_or_path)
+    return engine_from_text(read_text(name_or_path, TOML_MIB), name_or_path)
 
 
 def engine_from_text(text: str, origin: str) -> NamedEngine:
@@ -96,17 +91,8 @@ def engine_from_text(text: str, origin: str) -> NamedEngine:
     FileError
         As `load_engine`.
     """
-    try:
-        document, _ = separate(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
-        raise FileError([Problem(origin, "", f"is not valid TOML: {error}")]) from error
-    except ProvenanceError as error:
-        raise FileError([Problem(origin, error.key, str(error))]) from error
-    try:
-        found = EngineFile.model_validate(_without_vehicle(document))
-    except ValidationError as error:
-        wrong = [Problem(origin, key, sentence) for key, sentence in sentences(error, EngineFile)]
-        raise FileError(wrong) from None
+    document, _ = separate(parse_toml(text, origin), origin)
+    found = validated(_without_vehicle(document), EngineFile, origin)
     return NamedEngine(found.name, found.engine)
 
 

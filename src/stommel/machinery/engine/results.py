@@ -2,11 +2,15 @@
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+SAMPLES = 121
+"""Of each course, in words."""
 
 
 class Outcome(StrEnum):
@@ -74,6 +78,27 @@ class PhaseResult:
         scale = max(abs(self.energy_j), abs(self.sea_work_j), *map(abs, self.losses_j.values()))
         return abs(self.energy_j - used) / scale if scale > 0.0 else 0.0
 
+    def as_row(self) -> dict[str, Any]:
+        """The phase in words with units."""
+        return {
+            "outcome": self.outcome.value,
+            "duration_s": self.duration_s,
+            "volume_ml": self.moved_m3 * 1e6,
+            "energy_j": self.energy_j,
+            "peak_current_a": self.peak_current_a,
+            "peak_supply_current_a": self.peak_supply_current_a,
+            "pump_efficiency": self.efficiency,
+            "volumetric_efficiency": self.volumetric_efficiency,
+            "energy_per_mm_j": self.energy_per_mm,
+            "piston_begin_mm": self.piston_m[0] * 1e3,
+            "piston_end_mm": self.piston_m[1] * 1e3,
+            "sea_work_j": self.sea_work_j,
+            "hull_gas_work_j": self.hull_gas_work_j,
+            "stored_j": self.stored_j,
+            "losses_j": self.losses_j,
+            "energy_residual": self.energy_residual,
+        }
+
 
 @dataclass(frozen=True)
 class Courses:
@@ -128,3 +153,18 @@ class EngineRun:
     def phase(self, name: str) -> PhaseResult | None:
         """The phase of this name, None if there was none."""
         return next((phase for phase in self.phases if phase.name == name), None)
+
+    def as_json(self) -> dict[str, Any]:
+        """The run in words with units: the first phase at the top, all phases in a list."""
+        return {
+            "engine": self.name,
+            "pressure_mpa": self.pressure_pa / 1e6,
+            "ideal": self.ideal,
+            **self.phases[0].as_row(),
+            "stalled": self.stalled,
+            "oil_residual": self.oil_residual,
+            "lowest_pressure_mpa": self.lowest_pressure_pa / 1e6,
+            "phases": [{"phase": phase.name, **phase.as_row()} for phase in self.phases],
+            "events": [{"t_s": t, "event": name} for t, name in self.events],
+            "courses": self.courses.sampled(SAMPLES),
+        }

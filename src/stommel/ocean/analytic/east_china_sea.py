@@ -21,8 +21,8 @@ from stommel.ocean.analytic.everywhere import (
     tidal_ellipse,
 )
 from stommel.ocean.analytic.regional import rectangle
+from stommel.ocean.kernel.building import Frame, Slot, ocean_grid
 from stommel.ocean.kernel.grid import OceanGrid
-from stommel.ocean.reading.build import Frame, Slot, ocean_grid
 from stommel.seawater import properties
 
 Array = NDArray[np.float64]

@@ -9,8 +9,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from stommel.files.sentences import sentence
 from stommel.ocean.errors import UnknownOceanError
+from stommel.ocean.kernel.building import Frame, Slot, ocean_grid
 from stommel.ocean.kernel.grid import UNBOUNDED_DEPTH, OceanGrid
-from stommel.ocean.reading.build import Frame, Slot, ocean_grid
 from stommel.seawater import properties
 from stommel.seawater.stratification import Stratification, south_china_sea, two_layer
 
@@ -183,7 +183,7 @@ class Tide(_OneWater):
     """Of the major axis, counterclockwise from east."""
     phase_deg: Angle = 0.0
     """The current is greatest this long, in degrees of the period, after 1970-01-01T00:00 UTC."""
-    period_h: Annotated[float, Field(gt=0.1, le=10000.0)] = M2_PERIOD_H
+    period_hours: Annotated[float, Field(gt=0.1, le=10000.0)] = M2_PERIOD_H
     mean_east_m_s: Speed = 0.0
     mean_north_m_s: Speed = 0.0
 
@@ -192,7 +192,7 @@ class Tide(_OneWater):
 
     def _tide(self) -> tuple[Array, Array]:
         ellipse = tidal_ellipse(self.semi_major_m_s, self.semi_minor_m_s, self.inclination_deg, self.phase_deg)
-        return np.array([2.0 * np.pi / (3600.0 * self.period_h)]), ellipse[None, :]
+        return np.array([2.0 * np.pi / (3600.0 * self.period_hours)]), ellipse[None, :]
 
 
 def tidal_ellipse(semi_major: float, semi_minor: float, inclination_deg: float, phase_deg: float) -> Array:

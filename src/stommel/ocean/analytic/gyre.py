@@ -7,8 +7,8 @@ from pydantic import Field
 
 from stommel.ocean.analytic.everywhere import Latitude, Longitude, Speed, Still
 from stommel.ocean.analytic.regional import rectangle
+from stommel.ocean.kernel.building import Frame, Slot, ocean_grid
 from stommel.ocean.kernel.grid import UNBOUNDED_DEPTH, OceanGrid
-from stommel.ocean.reading.build import Frame, Slot, ocean_grid
 from stommel.seawater import properties
 
 _REACH, _NODES = 4.0, 161

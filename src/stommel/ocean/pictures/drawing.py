@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.figures.style import new_figure, styled
 from stommel.ocean import times
 from stommel.ocean.errors import BelowBottomError
 from stommel.ocean.kernel.chart import project, project_nodes
@@ -82,6 +83,14 @@ def layer_of(ocean: Ocean, time: float, depth: float) -> Layer:
             found[:, j, i] = column.values[row, [TEMPERATURE, EAST, NORTH]]
     bottom = np.where(levels > 0, grid.bottom[thin], np.nan)
     return Layer(grid.x[thin] / 1e3, grid.y[thin] / 1e3, latitude, longitude, bottom, *found)
+
+
+@styled
+def ocean_figure(ocean: Ocean, time: float, depth: float, place: tuple[float, float] | None = None) -> "Figure":
+    """Map and column in a figure of their own, as `draw_ocean` draws them and with its errors."""
+    figure = new_figure(11.0, 6.0) if ocean.grid().x.size > 1 else new_figure(5.0, 6.0)
+    draw_ocean(figure, ocean, time, depth, place)
+    return figure
 
 
 def draw_ocean(

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from stommel.ocean import times as clock
 from stommel.ocean.answers import Region
 from stommel.ocean.errors import UnknownOceanError
+from stommel.ocean.kernel.building import Frame, Slot, ocean_grid
 from stommel.ocean.kernel.grid import FIELDS, OceanGrid
 from stommel.ocean.reading.axes import time_dimension
-from stommel.ocean.reading.build import Frame, Slot, ocean_grid
 from stommel.ocean.reading.horizontal import read_nodes
 from stommel.ocean.reading.region import inside
 from stommel.ocean.reading.series import (

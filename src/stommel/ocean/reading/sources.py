@@ -1,5 +1,6 @@
 """Opening the files of an ocean: one, several, or a pattern; what is missing or damaged is said by name."""
 
+import errno
 import glob
 import os
 from collections.abc import Iterator, Mapping, Sequence
@@ -10,6 +11,7 @@ from typing import NoReturn
 import xarray as xr
 
 from stommel.errors import FileError, Problem
+from stommel.files.opening import exists, require_regular
 from stommel.ocean.answers import Source
 from stommel.ocean.reading.classic import expected_length
 from stommel.ocean.reading.variables import File
@@ -39,7 +41,7 @@ def _matching(entry: str, folder: Path | None) -> list[Path]:
     beside = str(folder / entry) if folder is not None else entry
     for name in (beside, entry):
         # a file may have a bracket in its name
-        if Path(name).exists():
+        if exists(name):
             return [Path(name)]
         matched = sorted(glob.glob(name))  # noqa: PTH207 - a pattern may be an absolute path
         if matched:
@@ -57,13 +59,12 @@ def opened(paths: Sequence[Path], names: Mapping[str, str]) -> Iterator[list[Fil
 
 
 def _open(path: Path) -> xr.Dataset:
-    if path.is_dir():
-        _refuse(path, f"is a folder; name its files, as {path / '*.nc'}")
-    if not path.exists():
-        _refuse(path, "cannot be read as NetCDF: no such file")
+    if os.path.isdir(path):  # noqa: PTH112 - Path.is_dir raises for a name that is too long
+        _refuse(path, f"cannot be read: it is a folder; name its files, as {path / '*.nc'}")
+    length = require_regular(path)
     if not os.access(path, os.R_OK):
-        _refuse(path, "cannot be read as NetCDF: permission denied")
-    length, expected = path.stat().st_size, expected_length(path)
+        _refuse(path, f"cannot be read: {os.strerror(errno.EACCES)}")
+    expected = expected_length(path)
     if expected is not None and length < expected:
         _refuse(path, f"is damaged or was cut short: it has {length} bytes and should have {expected}")
     try:

@@ -6,23 +6,14 @@ from typing import NamedTuple
 import numpy as np
 
 from stommel.compilation import inlined
-from stommel.simulation.plant.parameters import PITCH_DRIVE, PUMP, STEERING, Plant
+from stommel.control.commands import Commands
+from stommel.simulation.plant.parameters import PITCH_DRIVE, PUMP, STEERING, Engine, MassDrive, Plant, SteeringDrive
 
 OIL_RESOLUTION = 1e-7
 """Difference of ballast volume that the oil measurement can tell [m3]."""
 
 STEEPEST = 1.5
 """Pitch beyond which the slope of the mass's rails counts as this steep [rad]."""
-
-
-class Commands(NamedTuple):
-    """What the software wants of the actuators, SI units and radians."""
-
-    r_px: float
-    V_b: float
-    steering: float
-    hold_mass: float
-    """Distance from the commanded position below which the drive stays off [m]."""
 
 
 class Rates(NamedTuple):
@@ -65,38 +56,57 @@ def actuate(
     V_b: float,
     pressure: float,
     theta: float,
+    t: float,
     step: float,
 ) -> Rates:
     """Rates of moving mass, oil and steering in one control step, and the energy of their work.
 
     Limit switches end the travel, the worm gear holds the mass when its drive is off, the pump loses flow with pressure
-    and stalls, the valve lets oil in. `theta` is the pitch [rad].
+    and stalls, the valve lets oil in. `theta` is the true pitch [rad]: the drive bears the slope that is.
     """
-    goal = min(plant.mass_high, max(plant.mass_low, commands.r_px))
+    if abs(commands.V_b - world.V_b_wanted) > OIL_RESOLUTION:
+        world.V_b_wanted, world.moved_at = commands.V_b, t
+    r_px_dot = _move_mass(plant.mass, world, commands, r_px, theta, step)
+    u_b = _move_oil(plant.engine, world, commands.V_b, V_b, pressure, step)
+    return _steer(plant.steering, world, commands.steering, r_px_dot, u_b, step)
+
+
+@inlined
+def _move_mass(drive: MassDrive, world: np.record, commands: Commands, r_px: float, theta: float, step: float) -> float:
+    """Speed of the moving mass [m/s]."""
+    goal = min(drive.high, max(drive.low, commands.r_px))
     moving = abs(goal - r_px) > (0.25 * commands.hold_mass if world.mass_moving else commands.hold_mass)
     world.mass_moving = int(moving)
-    r_px_dot = 0.0
-    if moving:
-        slope = math.tan(max(-STEEPEST, min(STEEPEST, theta)))
-        uphill = slope if goal > r_px else -slope
-        r_px_dot = _towards(r_px, goal, interpolated(uphill, plant.slope, plant.mass_speed), step)
-        world.energy[PITCH_DRIVE] += abs(r_px_dot) * step * interpolated(uphill, plant.slope, plant.mass_j_m)
+    if not moving:
+        return 0.0
+    slope = math.tan(max(-STEEPEST, min(STEEPEST, theta)))
+    uphill = slope if goal > r_px else -slope
+    r_px_dot = _towards(r_px, goal, interpolated(uphill, drive.slope, drive.speed), step)
+    world.energy[PITCH_DRIVE] += abs(r_px_dot) * step * interpolated(uphill, drive.slope, drive.j_m)
+    return r_px_dot
 
-    volume = min(plant.ballast_high, max(plant.ballast_low, commands.V_b))
-    missing = volume - V_b
+
+@inlined
+def _move_oil(engine: Engine, world: np.record, wanted: float, V_b: float, pressure: float, step: float) -> float:
+    """Rate of the ballast volume [m3/s]."""
+    missing = min(engine.high, max(engine.low, wanted)) - V_b
     u_b = 0.0
     if missing > OIL_RESOLUTION:
-        u_b = min(missing / step, interpolated(pressure, plant.pressure, plant.pump_flow))
-        world.energy[PUMP] += u_b * step * interpolated(pressure, plant.pressure, plant.pump_j_m3)
+        u_b = min(missing / step, interpolated(pressure, engine.pressure, engine.pump_flow))
+        world.energy[PUMP] += u_b * step * interpolated(pressure, engine.pressure, engine.pump_j_m3)
     elif missing < -OIL_RESOLUTION:
-        u_b = max(missing / step, -interpolated(pressure, plant.pressure, plant.valve_flow))
-        world.energy[PUMP] -= u_b * step * interpolated(pressure, plant.pressure, plant.valve_j_m3)
+        u_b = max(missing / step, -interpolated(pressure, engine.pressure, engine.valve_flow))
+        world.energy[PUMP] -= u_b * step * interpolated(pressure, engine.pressure, engine.valve_j_m3)
     world.pumping, world.valve_open = int(u_b > 0.0), int(u_b < 0.0)
+    return u_b
 
-    steering_goal = min(plant.steering_limit, max(-plant.steering_limit, commands.steering))
-    rate = _towards(world.steering, steering_goal, plant.steering_speed, step)
+
+@inlined
+def _steer(drive: SteeringDrive, world: np.record, wanted: float, r_px_dot: float, u_b: float, step: float) -> Rates:
+    goal = min(drive.limit, max(-drive.limit, wanted))
+    rate = _towards(world.steering, goal, drive.speed, step)
     middle = world.steering + 0.5 * rate * step
     world.steering += rate * step
     world.steering_moving = int(rate != 0.0)
-    world.energy[STEERING] += abs(rate) * step * plant.steering_j_rad
+    world.energy[STEERING] += abs(rate) * step * drive.j_rad
     return Rates(r_px_dot, u_b, middle, rate)

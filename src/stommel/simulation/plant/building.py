@@ -1,27 +1,27 @@
 """From a vehicle file to the plant that the mission loop drives: actuators, consumers, battery."""
 
-from collections.abc import Collection
 from math import inf, nan, pi, radians
-from typing import Any
 
 import numpy as np
 
-from stommel.control.dive_cycle import PHASES
 from stommel.errors import FileError, Problem
 from stommel.machinery.power import EnergyModel, energy_model
 from stommel.simulation.plant.parameters import (
     ALWAYS,
-    CLIMB,
     CONDITIONS,
     CONSUMERS,
-    DIVE,
-    DRIFTING,
     MOVING,
+    SAMPLING,
     SENSORS,
     SURFACED,
     UNDERWATER,
     Array,
+    Battery,
+    Engine,
+    Loads,
+    MassDrive,
     Plant,
+    SteeringDrive,
 )
 from stommel.vehicle import Vehicle, VehicleFile
 from stommel.vehicle.schema import Consumer
@@ -33,12 +33,12 @@ _SLOWEST = 1e-6
 """A drive that stalls on a slope still creeps [m/s], so that time goes on."""
 
 
-def plant_of(vehicle: Vehicle, sampled: Collection[str] = PHASES) -> Plant:
+def plant_of(vehicle: Vehicle) -> Plant:
     """Return the plant of a vehicle.
 
     Where the file describes engine, drives, consumers and battery, their own models give flow, speed and energy; where
-    it does not, the actuators move at the speeds that the file states, and energy is not counted. In phases of the dive
-    that are not `sampled`, the sensors that run under water are off.
+    it does not, the actuators move at the speeds that the file states, and energy is not counted. Sensors
+    that run under water are on while the software commands to sample.
 
     Raises
     ------
@@ -48,11 +48,11 @@ def plant_of(vehicle: Vehicle, sampled: Collection[str] = PHASES) -> Plant:
     d = vehicle.description
     model = energy_model(vehicle) if _tells_energy(d) else None
     return Plant(
-        **_mass_drive(d, model),
-        **_oil(vehicle, model),
-        **_steering(vehicle, model),
-        **_consumers(model, sampled),
-        **_battery(vehicle, model),
+        mass=_mass_drive(d, model),
+        engine=_engine(vehicle, model),
+        steering=_steering(vehicle, model),
+        loads=_loads(model),
+        battery=_battery(vehicle, model),
         antenna=d.antenna.position_m if d.antenna is not None else (nan, nan, nan),
     )
 
@@ -61,7 +61,7 @@ def _tells_energy(d: VehicleFile) -> bool:
     return d.battery is not None and d.energy is not None and bool(d.consumers)
 
 
-def _mass_drive(d: VehicleFile, model: EnergyModel | None) -> dict[str, Any]:
+def _mass_drive(d: VehicleFile, model: EnergyModel | None) -> MassDrive:
     drive = d.actuators.moving_mass
     low, high = drive.travel_m if drive is not None else (-inf, inf)
     if model is not None:
@@ -73,10 +73,10 @@ def _mass_drive(d: VehicleFile, model: EnergyModel | None) -> dict[str, Any]:
     else:
         stated = drive.speed_mm_s / 1e3 if drive is not None and drive.speed_mm_s else _DEFAULT_MASS_SPEED
         speed, joules = np.full(len(_SLOPES), stated), np.zeros(len(_SLOPES))
-    return {"mass_low": low, "mass_high": high, "slope": _SLOPES, "mass_speed": speed, "mass_j_m": joules}
+    return MassDrive(low, high, _SLOPES, speed, joules)
 
 
-def _oil(vehicle: Vehicle, model: EnergyModel | None) -> dict[str, Any]:
+def _engine(vehicle: Vehicle, model: EnergyModel | None) -> Engine:
     engine = vehicle.description.actuators.buoyancy
     if engine is None:
         raise FileError(
@@ -86,32 +86,32 @@ def _oil(vehicle: Vehicle, model: EnergyModel | None) -> dict[str, Any]:
     if model is not None:
         work = model.works.pump
         strong = np.isfinite(work.inflating_j_m3)
-        return {
-            "pressure": work.pressure_pa,
-            "pump_flow": np.where(strong, work.inflating_m3_s, 0.0),
-            "pump_j_m3": np.where(strong, work.inflating_j_m3, 0.0),
-            "valve_flow": work.deflating_m3_s,
-            "valve_j_m3": work.deflating_j_m3,
-            "ballast_low": low,
-            "ballast_high": high,
-        }
+        return Engine(
+            pressure=work.pressure_pa,
+            pump_flow=np.where(strong, work.inflating_m3_s, 0.0),
+            pump_j_m3=np.where(strong, work.inflating_j_m3, 0.0),
+            valve_flow=work.deflating_m3_s,
+            valve_j_m3=work.deflating_j_m3,
+            low=low,
+            high=high,
+        )
     if engine.flow_ml_s is None:
         key = "actuators.buoyancy.flow_ml_s"
         text = f"{key} is missing: a mission needs the flow of the pump, or the table [engine]"
         raise FileError([Problem(vehicle.origin, key, text)])
     flow = np.full(2, engine.flow_ml_s / 1e6)
-    return {
-        "pressure": np.array([0.0, 1e8]),
-        "pump_flow": flow,
-        "pump_j_m3": np.zeros(2),
-        "valve_flow": flow,
-        "valve_j_m3": np.zeros(2),
-        "ballast_low": low,
-        "ballast_high": high,
-    }
+    return Engine(
+        pressure=np.array([0.0, 1e8]),
+        pump_flow=flow,
+        pump_j_m3=np.zeros(2),
+        valve_flow=flow,
+        valve_j_m3=np.zeros(2),
+        low=low,
+        high=high,
+    )
 
 
-def _steering(vehicle: Vehicle, model: EnergyModel | None) -> dict[str, Any]:
+def _steering(vehicle: Vehicle, model: EnergyModel | None) -> SteeringDrive:
     d = vehicle.description
     if d.steers_by is None:
         text = (
@@ -125,15 +125,15 @@ def _steering(vehicle: Vehicle, model: EnergyModel | None) -> dict[str, Any]:
     if d.steers_by == "rudder" and model is not None and d.energy is not None and d.energy.rudder_turn_deg > 0.0:
         over_and_back = 2.0 * radians(d.energy.rudder_turn_deg)
         energy = float(model.works.rudder.turn(0.4)) / over_and_back
-    return {
-        "steers_by_mass": float(d.steers_by == "roll"),
-        "steering_speed": radians(drive.speed_deg_s) if drive.speed_deg_s else _DEFAULT_STEERING_SPEED,
-        "steering_limit": min(drive.travel_rad, pi),
-        "steering_j_rad": energy,
-    }
+    return SteeringDrive(
+        by_mass=float(d.steers_by == "roll"),
+        speed=radians(drive.speed_deg_s) if drive.speed_deg_s else _DEFAULT_STEERING_SPEED,
+        limit=min(drive.travel_rad, pi),
+        j_rad=energy,
+    )
 
 
-def _consumers(model: EnergyModel | None, sampled: Collection[str]) -> dict[str, Any]:
+def _loads(model: EnergyModel | None) -> Loads:
     power, calls = np.zeros((len(CONSUMERS), len(CONDITIONS))), []
     for consumer in model.consumers if model is not None else ():
         assert model is not None
@@ -142,14 +142,14 @@ def _consumers(model: EnergyModel | None, sampled: Collection[str]) -> dict[str,
         if consumer.seconds_per_surfacing is not None:
             extra = (consumer.power_w - consumer.standby_w) / efficiency
             calls.append((CONSUMERS.index(consumer.part), extra, consumer.seconds_per_surfacing))
-    _switch(power[SENSORS], sampled)
-    return {
-        "power": power,
-        "call_consumer": np.array([consumer for consumer, _, _ in calls], dtype=np.int64),
-        "call_power": np.array([watts for _, watts, _ in calls], dtype=float),
-        "call_seconds": np.array([seconds for _, _, seconds in calls], dtype=float),
-        "self_discharge": model.stored.self_discharge_w if model is not None else 0.0,
-    }
+    # what measures under water is on while the software samples
+    power[SENSORS, SAMPLING], power[SENSORS, UNDERWATER] = power[SENSORS, UNDERWATER], 0.0
+    return Loads(
+        power=power,
+        call_consumer=np.array([consumer for consumer, _, _ in calls], dtype=np.int64),
+        call_power=np.array([watts for _, watts, _ in calls], dtype=float),
+        call_seconds=np.array([seconds for _, _, seconds in calls], dtype=float),
+    )
 
 
 def _add(consumer: Consumer, efficiency: float, power: Array) -> None:
@@ -162,20 +162,12 @@ def _add(consumer: Consumer, efficiency: float, power: Array) -> None:
         power[i, column] += (consumer.power_w - consumer.standby_w) * consumer.share_on / efficiency
 
 
-def _switch(power: Array, sampled: Collection[str]) -> None:
-    """Let what runs under water run in the sampled phases only."""
-    for phase, column in (("descent", DIVE), ("ascent", CLIMB), ("drift", DRIFTING)):
-        if phase in sampled:
-            power[column] += power[UNDERWATER]
-    power[UNDERWATER] = 0.0
-
-
 _LITHIUM_POLYMER = np.array([3.27, 3.61, 3.69, 3.73, 3.77, 3.79, 3.82, 3.87, 3.92, 4.02, 4.11, 4.20])
 """Voltage of a cell at rest over its charge [V]: a typical cell, as an assumption."""
 _CHARGE = np.array([0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0])
 
 
-def _battery(vehicle: Vehicle, model: EnergyModel | None) -> dict[str, Any]:
+def _battery(vehicle: Vehicle, model: EnergyModel | None) -> Battery:
     """Voltage over charge: the shape is the chemistry's, the mean over the discharge the vehicle file's."""
     d = vehicle.description
     if d.battery is None or model is None:
@@ -187,10 +179,11 @@ def _battery(vehicle: Vehicle, model: EnergyModel | None) -> dict[str, Any]:
         usable = model.stored.usable_j
         whole = usable / (d.battery.usable_fraction or 1.0)
         resistance = d.battery.internal_resistance_ohm
-    return {
-        "battery_energy": usable,
-        "charge": _CHARGE,
-        "open_voltage": open_voltage,
-        "resistance": resistance,
-        "whole_energy": whole,
-    }
+    return Battery(
+        energy=usable,
+        self_discharge=model.stored.self_discharge_w if model is not None else 0.0,
+        charge=_CHARGE,
+        open_voltage=open_voltage,
+        resistance=resistance,
+        whole_energy=whole,
+    )

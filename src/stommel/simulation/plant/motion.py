@@ -7,11 +7,10 @@ while an actuator moves or the vehicle answers it. At the surface the vehicle fl
 import math
 
 from stommel.compilation import inlined
-from stommel.control.dive_cycle import RECOVERY, SURFACE
 from stommel.dynamics.acceleration import state_from_velocities
 from stommel.dynamics.equations import net_weight, rates_by, state_from_array, state_into_array, static_moment
 from stommel.dynamics.inertia import factors_at, moving_mass_position
-from stommel.dynamics.state import STATE_SIZE, Actuation
+from stommel.dynamics.state import DEPTH, MOMENTA, R_PX, STATE_SIZE, V_B, X_EAST, X_NORTH, Actuation
 from stommel.geometry.attitude import attitude_of, wrapped
 from stommel.ocean.kernel.column import water_at
 from stommel.ocean.kernel.grid import BOTTOM, TIME
@@ -34,14 +33,14 @@ STEEPEST_AFLOAT = math.radians(60.0)
 def _step(vehicle, x, k, trial, actuation, column, age, h):  # type: ignore[no-untyped-def]  # compiled only
     """One classical Runge-Kutta step of the flat state `x`, in place."""
     moves = actuation.r_px_dot != 0.0 or actuation.u_b != 0.0
-    factors = factors_at(vehicle, x[13], x[15], actuation, False)
+    factors = factors_at(vehicle, x[R_PX], x[V_B], actuation, False)
     for stage in range(4):
         fraction = 0.0 if stage == 0 else h if stage == 3 else 0.5 * h
         for j in range(STATE_SIZE):
             trial[j] = x[j] + fraction * k[stage - 1, j] if stage > 0 else x[j]
         if moves and stage > 0:
-            factors = factors_at(vehicle, trial[13], trial[15], actuation, False)
-        water = water_at(column, trial[2], age + fraction)
+            factors = factors_at(vehicle, trial[R_PX], trial[V_B], actuation, False)
+        water = water_at(column, trial[DEPTH], age + fraction)
         state_into_array(rates_by(factors, vehicle, state_from_array(trial), actuation, water, False), k[stage])
     for j in range(STATE_SIZE):
         x[j] += h / 6.0 * (k[0, j] + 2.0 * (k[1, j] + k[2, j]) + k[3, j])
@@ -50,7 +49,7 @@ def _step(vehicle, x, k, trial, actuation, column, age, h):  # type: ignore[no-u
 @inlined
 def _float(vehicle, x, column, age, mu, step):  # type: ignore[no-untyped-def]  # compiled only
     """Rest on the water, moving with it, wings level."""
-    x[2] = 0.0
+    x[DEPTH] = 0.0
     state = state_from_array(x)
     water = water_at(column, 0.0, age)
     actuation = Actuation(0.0, 0.0, 0.0, 0.0, mu, 0.0)
@@ -76,27 +75,27 @@ def _float(vehicle, x, column, age, mu, step):  # type: ignore[no-untyped-def]  
 
 @inlined
 def advance(  # type: ignore[no-untyped-def]  # compiled only
-    equipment, x, k, trial, software, world, done, loop, column, t
+    equipment, x, k, trial, world, done, loop, column, t
 ):
     """Move the world by one control step."""
     vehicle, step, age = equipment.vehicle, loop.control_step, loop.start + t - column.place[TIME]
-    by_mass = equipment.plant.steers_by_mass != 0.0
+    by_mass = equipment.plant.steering.by_mass != 0.0
     delta_r = 0.0 if by_mass else done.steering
     mu = done.steering if by_mass else 0.0
     mu_dot = done.steering_rate if by_mass else 0.0
     u_b = done.u_b - fill_with_water(equipment.hull, world, t, step)
-    world.afloat = int(_floats(vehicle, x, column, age, software))
-    before_north, before_east, before_depth = x[0], x[1], x[2]
+    world.afloat = int(_floats(vehicle, x, column, age, world.rising != 0))
+    before_north, before_east, before_depth = x[X_NORTH], x[X_EAST], x[DEPTH]
     if world.afloat:
-        x[13] += done.r_px_dot * step
-        x[15] += u_b * step
+        x[R_PX] += done.r_px_dot * step
+        x[V_B] += u_b * step
         _float(vehicle, x, column, age, mu, step)
         U = water_at(column, 0.0, age).U
-        x[0] += U[0] * step
-        x[1] += U[1] * step
+        x[X_NORTH] += U[0] * step
+        x[X_EAST] += U[1] * step
     elif _lies_on_the_bottom(vehicle, x, column, age):
-        x[13] += done.r_px_dot * step
-        x[15] += u_b * step
+        x[R_PX] += done.r_px_dot * step
+        x[V_B] += u_b * step
     else:
         if done.r_px_dot != 0.0 or done.u_b != 0.0 or mu_dot != 0.0:
             world.moved_at = t
@@ -111,35 +110,35 @@ def advance(  # type: ignore[no-untyped-def]  # compiled only
             actuation = Actuation(done.r_px_dot, 0.0, u_b, delta_r, mu_here, mu_dot)
             _step(vehicle, x, k, trial, actuation, column, age + i * h, h)
         _contact(x, column)
-        U = water_at(column, x[2], age).U
-        north, east = (x[0] - before_north) / step - U[0], (x[1] - before_east) / step - U[1]
-        sinking = (x[2] - before_depth) / step
+        U = water_at(column, x[DEPTH], age).U
+        north, east = (x[X_NORTH] - before_north) / step - U[0], (x[X_EAST] - before_east) / step - U[1]
+        sinking = (x[DEPTH] - before_depth) / step
         world.speed = math.sqrt(north * north + east * east + sinking * sinking)
         world.current_sum_north += U[0] * step
         world.current_sum_east += U[1] * step
         world.current_time += step
-    world.latitude += (x[0] - before_north) / world.metres_north
-    world.longitude = wrapped(world.longitude + (x[1] - before_east) / world.metres_east)
+        world.rising = int(sinking < 0.0)
+    world.latitude += (x[X_NORTH] - before_north) / world.metres_north
+    world.longitude = wrapped(world.longitude + (x[X_EAST] - before_east) / world.metres_east)
 
 
 @inlined
-def _floats(vehicle, x, column, age, software):  # type: ignore[no-untyped-def]  # compiled only
-    """Whether the vehicle lies on the water: it is buoyant, and has come up, or waits there."""
-    limit = AFLOAT_DEPTH if software.phase in (SURFACE, RECOVERY) else 0.0
-    return x[2] <= limit and net_weight(vehicle, water_at(column, x[2], age), x[15]) < 0.0
+def _floats(vehicle, x, column, age, rising):  # type: ignore[no-untyped-def]  # compiled only
+    """Whether the vehicle lies on the water: it is buoyant, and comes up or is there."""
+    limit = AFLOAT_DEPTH if rising else 0.0
+    return x[DEPTH] <= limit and net_weight(vehicle, water_at(column, x[DEPTH], age), x[V_B]) < 0.0
 
 
 @inlined
 def _lies_on_the_bottom(vehicle, x, column, age):  # type: ignore[no-untyped-def]  # compiled only
     """Whether the vehicle rests on the ground, heavier than its water."""
-    return x[2] >= column.place[BOTTOM] and net_weight(vehicle, water_at(column, x[2], age), x[15]) > 0.0
+    return x[DEPTH] >= column.place[BOTTOM] and net_weight(vehicle, water_at(column, x[DEPTH], age), x[V_B]) > 0.0
 
 
 @inlined
 def _contact(x, column):  # type: ignore[no-untyped-def]  # compiled only
     """Neither out of the water nor into the ground: stop there."""
-    x[2] = max(x[2], 0.0)
-    if x[2] > column.place[BOTTOM]:
-        x[2] = column.place[BOTTOM]
-        for j in range(7, 13):
-            x[j] = 0.0
+    x[DEPTH] = max(x[DEPTH], 0.0)
+    if x[DEPTH] > column.place[BOTTOM]:
+        x[DEPTH] = column.place[BOTTOM]
+        x[MOMENTA] = 0.0

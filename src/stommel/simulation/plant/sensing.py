@@ -1,21 +1,18 @@
 """What the vehicle measures of its attitude, depth, position and water, and when it hears of it (compiled)."""
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
 from stommel.compilation import inlined
+from stommel.control.readings import Readings
+from stommel.dynamics.equations import state_from_array
+from stommel.dynamics.state import DEPTH, R_PX, V_B
+from stommel.geometry.attitude import Attitude
+from stommel.geometry.earth import metres_per_radian
 from stommel.geometry.vectors import Quaternion, Vector, add, cross, dot, down_in_body, matrix_times, scale, to_body
 from stommel.simulation.plant.sensors import Sensors
-from stommel.simulation.scenario.mission_file import LONGEST_LATENCY
-
-
-class Heading(NamedTuple):
-    """Pitch and heading, as the software uses them [rad]."""
-
-    theta: float
-    psi: float
+from stommel.simulation.scenario.scenario_file import LONGEST_LATENCY
 
 
 @inlined
@@ -35,8 +32,8 @@ def disturbing_field(sensors: Sensors, plant_state: np.record) -> Vector:
 
 
 @inlined
-def compass(sensors: Sensors, plant_state: np.record, Q: Quaternion, noise: np.random.Generator) -> Heading:
-    """Pitch by the accelerometers and the tilt-compensated magnetic heading, with iron, motors and noise.
+def compass(sensors: Sensors, plant_state: np.record, Q: Quaternion, noise: np.random.Generator) -> Attitude:
+    """Roll and pitch by the accelerometers and the tilt-compensated magnetic heading, with iron, motors and noise.
 
     East is down cross field, north is east cross down; both as the sensors feel them, in the body frame.
     """
@@ -52,7 +49,8 @@ def compass(sensors: Sensors, plant_state: np.record, Q: Quaternion, noise: np.r
     east = cross(down, b)
     north = cross(east, down)
     psi = math.atan2(east[0], north[0]) + sensors.heading_noise * noise.standard_normal()
-    return Heading(math.atan2(-down[0], math.sqrt(down[1] * down[1] + down[2] * down[2])), psi)
+    theta = math.atan2(-down[0], math.sqrt(down[1] * down[1] + down[2] * down[2]))
+    return Attitude(math.atan2(down[1], down[2]), theta, psi)
 
 
 @inlined
@@ -62,13 +60,13 @@ def depth_sensor(sensors: Sensors, depth: float, noise: np.random.Generator) -> 
 
 
 @inlined
-def late(sensors: Sensors, world: np.record, tick: int, now: Heading, depth: float) -> tuple[Heading, float]:
-    """Pitch, heading and depth that reach the software at this control step: measured some steps ago."""
+def late(sensors: Sensors, world: np.record, tick: int, now: Attitude, depth: float) -> tuple[Attitude, float]:
+    """Attitude and depth that reach the software at this control step: measured some steps ago."""
     row = world.measured[tick % LONGEST_LATENCY]
-    row[0], row[1], row[2] = now.theta, now.psi, depth
+    row[0], row[1], row[2], row[3] = now.theta, now.psi, depth, now.phi
     then = world.measured[(tick - sensors.attitude_lag) % LONGEST_LATENCY]
     pressed = world.measured[(tick - sensors.pressure_lag) % LONGEST_LATENCY]
-    return Heading(then[0], then[1]), pressed[2]
+    return Attitude(then[3], then[0], then[1]), pressed[2]
 
 
 @inlined
@@ -109,3 +107,53 @@ def measured_internal_pressure(sensors: Sensors, world: np.record) -> float:
     """Pressure in the hull by its sensor, without noise [Pa]."""
     pressure: float = world.internal_pressure + sensors.internal_pressure_bias
     return pressure
+
+
+@inlined
+def sense(
+    sensors: Sensors, world: np.record, x: np.ndarray, bottom: float, tick: int, noise: np.random.Generator
+) -> Readings:
+    """What the sensors say at a control step, `bottom` being the depth of the ground [m]."""
+    now = compass(sensors, world, state_from_array(x).Q, noise)
+    attitude, depth = late(sensors, world, tick, now, depth_sensor(sensors, x[DEPTH], noise))
+    altitude = altimeter(sensors, bottom - x[DEPTH], noise)
+    fixed = world.fixed != 0
+    world.fixed = 0
+    return Readings(
+        attitude.phi,
+        attitude.theta,
+        attitude.psi,
+        depth,
+        altitude,
+        x[R_PX],
+        x[V_B] + world.leaked,
+        world.steering,
+        world.leaked > sensors.leak_volume,
+        measured_internal_pressure(sensors, world),
+        world.voltage + sensors.voltage_bias,
+        world.current + sensors.current_bias,
+        fixed,
+        world.fix_time,
+        world.fix_latitude,
+        world.fix_longitude,
+    )
+
+
+@inlined
+def listen(
+    sensors: Sensors, world: np.record, radio: bool, dry: bool, t: float, step: float, noise: np.random.Generator
+) -> None:
+    """Let the receiver of GPS find a position, once it has been on with the antenna dry for long enough."""
+    if not radio:
+        world.listening = 0
+        return
+    if not world.listening:
+        world.listening, world.received = 1, 0.0
+    if not dry:
+        return
+    received: float = world.received + step
+    world.received = received
+    if received >= sensors.first_fix_time:
+        metres = metres_per_radian(world.latitude)
+        world.fix_latitude, world.fix_longitude = fix(sensors, world.latitude, world.longitude, metres, noise)
+        world.fix_time, world.fixed = t, 1

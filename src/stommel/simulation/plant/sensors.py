@@ -1,13 +1,10 @@
-"""What the mission loop is told of the sensors and of what surrounds the vehicle, SI units and radians."""
+"""The sensors: how wrong and how late they are, SI units and radians."""
 
+from math import cos, exp, radians, sin
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from stommel.geometry.vectors import Matrix, Vector
-
-Array = NDArray[np.float64]
+from stommel.simulation.scenario.scenario_file import ScenarioFile
 
 
 class Sensors(NamedTuple):
@@ -73,46 +70,48 @@ class Sensors(NamedTuple):
     """New error of the cell for a change of the water's temperature in one control step."""
     sample_every: int
     """Control steps between two samples of the CTD."""
-    sampled: Array
-    """1 for each phase of the dive in which the CTD samples, else 0."""
 
 
-class Waves(NamedTuple):
-    """Elevation of the sea surface above a floating vehicle that follows it in part, as a sum of cosines."""
+def sensors_of(scenario: ScenarioFile) -> Sensors:
+    """Sensor errors of a scenario, SI units and radians."""
+    s, ctd, step = scenario.sensors, scenario.ctd, scenario.integration.control_step_s
+    dip = radians(s.magnetic_inclination_deg)
+    rows = s.soft_iron
+    return Sensors(
+        attitude_noise=radians(s.attitude_noise_deg),
+        heading_noise=radians(s.heading_noise_deg),
+        pressure_noise=s.pressure_noise_m,
+        pressure_bias=s.pressure_bias_m,
+        attitude_lag=round(s.attitude_latency_s / step),
+        pressure_lag=round(s.pressure_latency_s / step),
+        altimeter_noise=s.altimeter_noise_m,
+        position_noise=s.gps_noise_m,
+        first_fix_time=s.first_fix_s,
+        altimeter_range=s.altimeter_range_m,
+        field=(cos(dip), 0.0, sin(dip)),
+        hard_iron=s.hard_iron,
+        soft_iron=(*rows[0], *rows[1], *rows[2]),
+        pump_field=s.pump_field,
+        valve_field=s.valve_field,
+        mass_field=s.pitch_drive_field,
+        steering_field=s.steering_field,
+        shielding=s.shielding,
+        voltage_bias=s.voltage_bias_v,
+        voltage_noise=s.voltage_noise_v,
+        current_bias=s.current_bias_a,
+        current_noise=s.current_noise_a,
+        internal_pressure_bias=s.internal_pressure_bias_pa,
+        internal_pressure_noise=s.internal_pressure_noise_pa,
+        leak_volume=s.leak_ml / 1e6,
+        thermistor_decay=1.0 - followed(step, ctd.temperature_lag_s),
+        # the answers to a temperature that changes evenly through the step
+        thermistor_gain=ctd.temperature_lag_s / step * followed(step, ctd.temperature_lag_s),
+        cell_decay=1.0 - followed(step, ctd.cell_lag_s),
+        cell_gain=ctd.cell_share * ctd.cell_lag_s / step * followed(step, ctd.cell_lag_s),
+        sample_every=round(scenario.sampling.every_s / step),
+    )
 
-    amplitude: Array
-    """Of the elevation relative to the vehicle [m]."""
-    omega: Array
-    """Angular frequency [rad/s]."""
-    phase: Array
-    """[rad]"""
 
-
-class Hull(NamedTuple):
-    """The room inside the hull: its air, and a leak."""
-
-    air_pressure: float
-    """When it was closed [Pa]."""
-    air_temperature: float
-    """When it was closed [K]."""
-    air_volume: float
-    """With the ballast volume at zero [m3]."""
-    temperature_weight: float
-    """Share of its difference to the water's temperature that the air follows in one control step."""
-    leak_starts: float
-    """Time of the mission [s]; infinite for a tight hull."""
-    leak_rate: float
-    """[m3/s]"""
-    deepest: float
-    """Depth at which the hull is given up for lost [m]."""
-
-
-class Alarms(NamedTuple):
-    """What ends the mission."""
-
-    energy: float
-    """Measured energy out of the battery [J]."""
-    leak: bool
-    """Whether the leak detectors do."""
-    internal_pressure: float
-    """Measured pressure in the hull [Pa]; infinite for none."""
+def followed(step: float, time_constant: float) -> float:
+    """Share of a difference that a first-order lag follows in a step."""
+    return 1.0 - exp(-step / time_constant) if time_constant > 0.0 else 1.0

@@ -1,14 +1,29 @@
 """The sea state around a floating vehicle: a JONSWAP spectrum, and what of it the vehicle does not follow."""
 
+import math
 from math import pi, sqrt
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stommel.planning.mission import Mission
-from stommel.simulation.plant.sensors import Waves
+from stommel.compilation import inlined
+from stommel.geometry.vectors import Vector
+from stommel.simulation.scenario.mission import Mission
 
 Array = NDArray[np.float64]
+
+
+class Waves(NamedTuple):
+    """Elevation of the sea surface above a floating vehicle that follows it in part, as a sum of cosines."""
+
+    amplitude: Array
+    """Of the elevation relative to the vehicle [m]."""
+    omega: Array
+    """Angular frequency [rad/s]."""
+    phase: Array
+    """[rad]"""
+
 
 COMPONENTS = 32
 """Cosines that make up the sea."""
@@ -25,10 +40,10 @@ def waves_of(mission: Mission) -> Waves:
 
     Frequencies and phases are drawn from the mission's seed, apart from the noise of the sensors.
     """
-    sea = mission.plan.waves
+    sea = mission.scenario.waves
     if sea.significant_height_m <= 0.0:
         return Waves(np.empty(0), np.empty(0), np.empty(0))
-    draw = np.random.default_rng([mission.plan.seed, 1])
+    draw = np.random.default_rng([mission.scenario.seed, 1])
     peak = 2.0 * pi / sea.peak_period_s
     edges = np.linspace(0.5 * peak, 4.0 * peak, COMPONENTS + 1)
     # uneven frequencies, so that the sea does not repeat itself
@@ -59,9 +74,24 @@ def heave_period(mission: Mission) -> float:
     The hull's cross-section at the water line gives the stiffness; mass and added mass in heave resist.
     """
     d = mission.vehicle.description
-    tilt = abs(np.sin(np.radians(mission.plan.surface.pitch_deg)))
+    tilt = abs(np.sin(np.radians(mission.scenario.surface.pitch_deg)))
     if d.hull is None or d.hull.outer_diameter_mm is None or tilt < 0.1:
         return HEAVE_PERIOD
     area = 0.25 * pi * (d.hull.outer_diameter_mm / 1e3) ** 2 / tilt
     stiffness = d.water.density_kg_m3 * d.water.gravity_m_s2 * area
     return 2.0 * pi * sqrt((d.mass_kg + d.added_inertia.heave_kg) / stiffness)
+
+
+@inlined
+def antenna_emerges(waves: Waves, antenna: Vector, theta: float, t: float) -> bool:
+    """Whether the antenna of a vehicle that floats with wings level at pitch `theta` is out of the water now.
+
+    The centre of buoyancy lies on the calm surface; waves that the vehicle does not follow wash over the antenna. One
+    whose place is not known always emerges.
+    """
+    if math.isnan(antenna[0]):
+        return True
+    height = antenna[0] * math.sin(theta) - antenna[2] * math.cos(theta)
+    for i in range(len(waves.omega)):
+        height -= waves.amplitude[i] * math.cos(waves.omega[i] * t + waves.phase[i])
+    return height > 0.0

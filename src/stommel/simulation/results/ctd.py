@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.simulation.flight import Flown
-from stommel.simulation.memory import SAMPLE_COLUMNS
 
 Array = NDArray[np.float64]
 
@@ -36,8 +35,8 @@ def samples_of(flown: Flown) -> Samples:
     measures the conductivity of the water warmed or cooled by its own walls; salinity spikes in a thermocline follow as
     at sea.
     """
-    rows, ctd = flown.samples, flown.mission.plan.ctd
-    noise = np.random.default_rng([flown.mission.plan.seed, 2])
+    rows, ctd = flown.samples, flown.mission.scenario.ctd
+    noise = np.random.default_rng([flown.mission.scenario.seed, 2])
     latitude, longitude = np.degrees(_column(rows, "latitude")), np.degrees(_column(rows, "longitude"))
     p = _column(rows, "pressure") / _DBAR
     SP = gsw.SP_from_SA(_column(rows, "salinity"), p, longitude, latitude)
@@ -51,5 +50,5 @@ def samples_of(flown: Flown) -> Samples:
     return Samples(pressure, temperature, conductivity, salinity)
 
 
-def _column(rows: Array, name: str) -> Array:
-    return np.ascontiguousarray(rows[:, SAMPLE_COLUMNS.index(name)])
+def _column(rows: NDArray[np.void], name: str) -> Array:
+    return np.ascontiguousarray(rows[name])

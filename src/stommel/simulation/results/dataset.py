@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from stommel.files.whole import whole_file
 from stommel.simulation.flight import Flown
-from stommel.simulation.memory import EVENT_COLUMNS, SAMPLE_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
 from stommel.simulation.results import variables
 from stommel.simulation.results.ctd import samples_of
 from stommel.version import __version__
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
+Rows = NDArray[np.void]
 
 _SAMPLED = "sample_time sample_latitude sample_longitude"
 
@@ -38,14 +38,14 @@ def dataset_of(flown: Flown) -> "xr.Dataset":
     """
     import xarray as xr  # noqa: PLC0415 - start-up counts
 
-    start = flown.mission.plan.start_seconds
+    start = flown.mission.scenario.start_seconds
     return xr.Dataset(
         _record(flown.record)
         | _samples(flown)
         | _surfacings(flown.surfacings, start)
         | _events(flown.events, start)
         | _trajectory(),
-        coords={"time": ("time", _times(flown.record[:, 0], start), variables.TIME)},
+        coords={"time": ("time", _times(flown.record["time"], start), variables.TIME)},
         attrs=_provenance(flown),
     )
 
@@ -55,21 +55,21 @@ def _times(seconds: Array, start: float) -> NDArray[np.datetime64]:
     return np.round((start + seconds) * 1e9).astype("int64").astype("datetime64[ns]")
 
 
-def _record(record: Array) -> dict[str, Any]:
+def _record(record: Rows) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name, attributes in variables.PLACES.items():
-        found[name] = ("time", np.degrees(record[:, STATE_COLUMNS.index(name)]), attributes)
+        found[name] = ("time", np.degrees(record[name]), attributes)
     for name, (column, factor, attributes) in variables.RECORD.items():
-        values = record[:, STATE_COLUMNS.index(column)]
+        values = record[column]
         scaled = values * factor if factor else np.degrees(values)
         found[name] = ("time", scaled if name in _EXACT else scaled.astype(np.float32), dict(attributes))
     for name in ("heading", "measured_heading"):
         found[name] = ("time", np.mod(found[name][1], np.float32(360.0)), found[name][2])
     bottom = found["bottom_depth"][1]
     bottom[bottom > _UNBOUNDED] = np.nan
-    for name, attributes in variables.ENERGY.items():
-        found[name] = ("time", record[:, STATE_COLUMNS.index(name)].copy(), attributes)
-    found["phase"] = ("time", record[:, STATE_COLUMNS.index("phase")].astype(np.int8), _flags(variables.PHASE))
+    for consumer, (name, attributes) in enumerate(variables.ENERGY.items()):
+        found[name] = ("time", record["energy"][:, consumer].copy(), attributes)
+    found["phase"] = ("time", record["phase"].astype(np.int8), _flags(variables.PHASE))
     for name, (_, _, attributes) in found.items():
         if name not in ("latitude", "longitude", "depth"):
             attributes["coordinates"] = "time depth latitude longitude"
@@ -78,41 +78,41 @@ def _record(record: Array) -> dict[str, Any]:
 
 def _samples(flown: Flown) -> dict[str, Any]:
     rows = flown.samples
-    found = _located("sample", rows, SAMPLE_COLUMNS, flown.mission.plan.start_seconds)
+    found = _located("sample", rows, flown.mission.scenario.start_seconds)
     for name in variables.PLACES:
         found[f"sample_{name}"][2]["long_name"] = f"{name} that the vehicle believes"
     measured = samples_of(flown)._asdict()
     for name, attributes in variables.SAMPLES.items():
         found[f"sample_{name}"] = ("sample", measured[name], dict(attributes) | {"coordinates": _SAMPLED})
-    phase = rows[:, SAMPLE_COLUMNS.index("phase")].astype(np.int8)
+    phase = rows["phase"].astype(np.int8)
     found["sample_phase"] = ("sample", phase, _flags(variables.PHASE))
     return found
 
 
-def _surfacings(rows: Array, start: float) -> dict[str, Any]:
-    found = _located("surfacing", rows, SURFACING_COLUMNS, start)
+def _surfacings(rows: Rows, start: float) -> dict[str, Any]:
+    found = _located("surfacing", rows, start)
     for name, (column, attributes) in variables.SURFACINGS.items():
-        found[name] = ("surfacing", rows[:, SURFACING_COLUMNS.index(column)].copy(), attributes)
+        found[name] = ("surfacing", rows[column].copy(), attributes)
     return found
 
 
-def _events(rows: Array, start: float) -> dict[str, Any]:
-    found = _located("event", rows, EVENT_COLUMNS, start)
+def _events(rows: Rows, start: float) -> dict[str, Any]:
+    found = _located("event", rows, start)
     depth = dict(variables.RECORD["depth"][2])
     del depth["axis"]
-    found["event_depth"] = ("event", rows[:, EVENT_COLUMNS.index("depth")].copy(), depth)
+    found["event_depth"] = ("event", rows["depth"].copy(), depth)
     for name, attributes in (("phase", variables.PHASE), ("reason", variables.REASON)):
-        values = rows[:, EVENT_COLUMNS.index(name)].astype(np.int8)
+        values = rows[name].astype(np.int8)
         found[f"event_{name}"] = ("event", values, _flags(attributes))
     return found
 
 
-def _located(dimension: str, rows: Array, columns: tuple[str, ...], start: float) -> dict[str, Any]:
+def _located(dimension: str, rows: Rows, start: float) -> dict[str, Any]:
     """Time and place of surfacings or events."""
     time = {"standard_name": "time", "long_name": f"time of the {dimension}"}
-    found: dict[str, Any] = {f"{dimension}_time": (dimension, _times(rows[:, columns.index("time")], start), time)}
+    found: dict[str, Any] = {f"{dimension}_time": (dimension, _times(rows["time"], start), time)}
     for name, attributes in variables.PLACES.items():
-        found[f"{dimension}_{name}"] = (dimension, np.degrees(rows[:, columns.index(name)]), dict(attributes))
+        found[f"{dimension}_{name}"] = (dimension, np.degrees(rows[name]), dict(attributes))
     return found
 
 
@@ -125,8 +125,8 @@ def _trajectory() -> dict[str, Any]:
 
 
 def _provenance(flown: Flown) -> dict[str, Any]:
-    mission, plan = flown.mission, flown.mission.plan
-    stored = flown.plant.battery_energy
+    mission, plan = flown.mission, flown.mission.scenario
+    stored = flown.plant.battery.energy
     return {
         "Conventions": "CF-1.10",
         "featureType": "trajectory",
@@ -139,11 +139,12 @@ def _provenance(flown: Flown) -> dict[str, Any]:
         "mission_file": mission.origin,
         "mission": json.dumps(mission.document, default=str, sort_keys=True),
         "vehicle": mission.vehicle.description.model_dump_json(),
+        "vehicle_neutral_density_kg_m3": mission.vehicle.neutral_density_kg_m3,
         "ocean": mission.ocean.name,
         "ocean_notes": json.dumps(dict(mission.ocean.notes), sort_keys=True),
         "distance_through_water_m": flown.distance_through_water,
         "battery_energy_j": stored if np.isfinite(stored) else np.nan,
-        "battery_self_discharge_w": flown.plant.self_discharge,
+        "battery_self_discharge_w": flown.plant.battery.self_discharge,
     }
 
 

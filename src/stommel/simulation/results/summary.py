@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stommel.control.dive_cycle import DESCENT, EVENTS, NOTHING, TARGET_REACHED
+from stommel.control.dive_cycle import DESCENT, NOTHING, TARGET_REACHED
 from stommel.simulation.flight import Flown
-from stommel.simulation.memory import EVENT_COLUMNS, STATE_COLUMNS, SURFACING_COLUMNS
+from stommel.simulation.log import REASONS
 from stommel.simulation.plant.parameters import CONSUMERS
 
 if TYPE_CHECKING:
@@ -21,8 +21,8 @@ _DAY = 86400.0
 
 def summary(flown: Flown) -> dict[str, Any]:
     """Sum up a mission; the names say the units. None stands for what the mission or the vehicle file does not tell."""
-    plan, record = flown.mission.plan, flown.record
-    days = float(_column(record, "time")[-1] + plan.output_every_s) / _DAY if len(record) else 0.0
+    plan, record = flown.mission.scenario, flown.record
+    days = float(record["time"][-1] + plan.output_every_s) / _DAY if len(record) else 0.0
     return {
         "name": plan.name,
         "vehicle": flown.mission.vehicle.name,
@@ -32,7 +32,7 @@ def summary(flown: Flown) -> dict[str, Any]:
         "days": days,
         "dives": _dives(flown),
         "surfacings": len(flown.surfacings),
-        "deepest_m": float(_column(record, "depth").max()) if len(record) else 0.0,
+        "deepest_m": float(record["depth"].max()) if len(record) else 0.0,
         **_distances(flown),
         **_energy(flown, days),
         **_navigation(flown.surfacings),
@@ -41,13 +41,9 @@ def summary(flown: Flown) -> dict[str, Any]:
     }
 
 
-def _column(record: Array, name: str) -> Array:
-    return record[:, STATE_COLUMNS.index(name)]
-
-
 def _dives(flown: Flown) -> int:
     """Dives begun: every change into descent."""
-    return int(np.sum(flown.events[:, EVENT_COLUMNS.index("phase")] == DESCENT))
+    return int(np.sum(flown.events["phase"] == DESCENT))
 
 
 def _distances(flown: Flown) -> dict[str, float]:
@@ -55,7 +51,7 @@ def _distances(flown: Flown) -> dict[str, float]:
     from pyproj import Geod  # noqa: PLC0415 - start-up counts
 
     ellipsoid = Geod(ellps="WGS84")
-    latitude, longitude = (np.degrees(_column(flown.record, name)) for name in ("latitude", "longitude"))
+    latitude, longitude = (np.degrees(flown.record[name]) for name in ("latitude", "longitude"))
     made_good = _between(ellipsoid, latitude[[0, -1]], longitude[[0, -1]]) if len(latitude) else 0.0
     return {
         "distance_over_ground_km": _between(ellipsoid, latitude, longitude) / 1e3,
@@ -70,17 +66,16 @@ def _between(ellipsoid: "Geod", latitude: Array, longitude: Array) -> float:
 
 def _energy(flown: Flown, days: float) -> dict[str, Any]:
     """Energy by consumer, and what the battery still gives at the mean power so far."""
-    names = [f"energy_{consumer}" for consumer in CONSUMERS]
-    spent = {c: float(_column(flown.record, n)[-1]) for c, n in zip(CONSUMERS, names, strict=True)}
-    total, stored = sum(spent.values()), flown.plant.battery_energy
+    spent = dict(zip(CONSUMERS, flown.record["energy"][-1].tolist(), strict=True))
+    total, stored = sum(spent.values()), flown.plant.battery.energy
     if not np.isfinite(stored) or total <= 0.0:
         unknown = ("energy_wh", "mean_power_w", "battery_wh", "battery_left_wh", "battery_left_share", "days_left",
                    "battery_end_v", "battery_least_v")  # fmt: skip
         return dict.fromkeys(unknown)
-    lost = flown.plant.self_discharge * days * _DAY
+    lost = flown.plant.battery.self_discharge * days * _DAY
     left = max(0.0, stored - total - lost)
     power = (total + lost) / (days * _DAY)
-    voltage = _column(flown.record, "voltage")
+    voltage = flown.record["voltage"]
     return {
         "energy_wh": {c: joules / _WATT_HOUR for c, joules in spent.items()} | {"self_discharge": lost / _WATT_HOUR},
         "mean_power_w": power,
@@ -93,13 +88,12 @@ def _energy(flown: Flown, days: float) -> dict[str, Any]:
     }
 
 
-def _navigation(surfacings: Array) -> dict[str, Any]:
+def _navigation(surfacings: NDArray[np.void]) -> dict[str, Any]:
     """Errors of dead reckoning and of the depth-averaged current against the truth; none before the first surfacing."""
     if not len(surfacings):
         return {"reckoning_error_m": None, "current_error_m_s": None}
-    error = surfacings[:, SURFACING_COLUMNS.index("reckoning_error")]
-    first = SURFACING_COLUMNS.index("current_north")
-    miss = np.hypot(*(surfacings[:, first : first + 2] - surfacings[:, first + 2 : first + 4]).T)
+    error = surfacings["reckoning_error"]
+    miss = np.hypot(*(surfacings[f"current_{way}"] - surfacings[f"true_current_{way}"] for way in ("north", "east")))
     return {
         "reckoning_error_m": {"mean": float(error.mean()), "greatest": float(error.max())},
         "current_error_m_s": {"mean": float(miss.mean()), "greatest": float(miss.max())},
@@ -108,7 +102,7 @@ def _navigation(surfacings: Array) -> dict[str, Any]:
 
 def _events(flown: Flown) -> dict[str, int]:
     """How often what ended a dive or the mission, without the ordinary turns at the target depth."""
-    reasons = flown.events[:, EVENT_COLUMNS.index("reason")].astype(int)
+    reasons = flown.events["reason"].astype(int)
     kinds, counts = np.unique(reasons, return_counts=True)
     found = zip(kinds.tolist(), counts.tolist(), strict=True)
-    return {EVENTS[kind]: count for kind, count in found if kind not in (NOTHING, TARGET_REACHED)}
+    return {REASONS[kind]: count for kind, count in found if kind not in (NOTHING, TARGET_REACHED)}

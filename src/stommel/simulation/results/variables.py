@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from stommel.control.dive_cycle import EVENTS, PHASES
+from stommel.control.dive_cycle import PHASES
+from stommel.simulation.log import REASONS
 from stommel.simulation.plant.parameters import CONSUMERS
 
 Attributes = dict[str, Any]
@@ -144,8 +145,8 @@ PHASE: Attributes = {
 
 REASON: Attributes = {
     "long_name": "why the dive or the mission ended",
-    "flag_values": list(range(len(EVENTS))),
-    "flag_meanings": " ".join(event.replace(":", "").replace("'", "").replace(" ", "_") for event in EVENTS),
+    "flag_values": list(range(len(REASONS))),
+    "flag_meanings": " ".join(event.replace(":", "").replace("'", "").replace(" ", "_") for event in REASONS),
 }
 
 SURFACINGS: dict[str, tuple[str, Attributes]] = {

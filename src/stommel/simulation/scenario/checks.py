@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from stommel.errors import FileError, Problem, StommelError
-from stommel.planning.mission import Mission
+from stommel.simulation.scenario.mission import Mission
 
 
 def refuse_impossible(mission: Mission) -> None:
@@ -22,7 +22,7 @@ def refuse_impossible(mission: Mission) -> None:
 
 
 def _too_deep(mission: Mission) -> Iterator[Problem]:
-    hull, depth = mission.vehicle.description.hull, mission.plan.dives.depth_m
+    hull, depth = mission.vehicle.description.hull, mission.scenario.dives.depth_m
     rating = hull.depth_rating_m if hull is not None else None
     if rating is not None and depth > rating:
         text = f"dives.depth_m = {depth:g}: deeper than the hull's rating, {rating:g} m"
@@ -31,12 +31,12 @@ def _too_deep(mission: Mission) -> Iterator[Problem]:
 
 def _places(mission: Mission) -> Iterator[Problem]:
     """Start and waypoints on land or outside the ocean; what is wrong with all of them, as the time, is said once."""
-    plan = mission.plan
-    places = {"start": plan.start} | {f"waypoints.{i}": place for i, place in enumerate(plan.waypoints)}
+    scenario = mission.scenario
+    places = {"start": scenario.start} | {f"waypoints.{i}": place for i, place in enumerate(scenario.waypoints)}
     said = set()
     for key, place in places.items():
         try:
-            mission.ocean.at(plan.start_seconds, place.latitude_deg, place.longitude_deg, 0.0)
+            mission.ocean.at(scenario.start_seconds, place.latitude_deg, place.longitude_deg, 0.0)
         except StommelError as error:
             text = f"{key} = ({place.latitude_deg:g}, {place.longitude_deg:g}): {error}"
             if str(error) not in said:
@@ -45,18 +45,18 @@ def _places(mission: Mission) -> Iterator[Problem]:
 
 
 def _bottom(mission: Mission) -> Iterator[Problem]:
-    plan = mission.plan
-    bottom = mission.ocean.bottom_depth(plan.start.latitude_deg, plan.start.longitude_deg)
-    if plan.dives.depth_m > bottom:
-        text = f"dives.depth_m = {plan.dives.depth_m:g}: below the bottom at the start, {bottom:.4g} m"
+    scenario = mission.scenario
+    bottom = mission.ocean.bottom_depth(scenario.start.latitude_deg, scenario.start.longitude_deg)
+    if scenario.dives.depth_m > bottom:
+        text = f"dives.depth_m = {scenario.dives.depth_m:g}: below the bottom at the start, {bottom:.4g} m"
         yield Problem(mission.origin, "dives.depth_m", text)
 
 
 def _end(mission: Mission) -> Iterator[Problem]:
     """A mission that may last longer than the ocean's data."""
-    plan = mission.plan
+    scenario = mission.scenario
     try:
-        mission.ocean.at(plan.end_seconds, plan.start.latitude_deg, plan.start.longitude_deg, 0.0)
+        mission.ocean.at(scenario.end_seconds, scenario.start.latitude_deg, scenario.start.longitude_deg, 0.0)
     except StommelError as error:
-        text = f"duration_days = {plan.duration_days:g}: {error}"
+        text = f"duration_days = {scenario.duration_days:g}: {error}"
         yield Problem(mission.origin, "duration_days", text)

@@ -5,17 +5,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from stommel.errors import FileError, Problem
-from stommel.files.sentences import sentences
+from stommel.files.opening import beside
+from stommel.files.sentences import validated
 from stommel.files.toml_reader import read_toml
+from stommel.mission.plan import Plan
 from stommel.ocean.answers import is_profile
 from stommel.ocean.ocean import Ocean
 from stommel.planning.ballasting import ballasted
-from stommel.planning.mission import Mission
 from stommel.simulation.scenario.checks import refuse_impossible
-from stommel.simulation.scenario.mission_file import MissionFile
+from stommel.simulation.scenario.mission import Mission
+from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle import Vehicle, load_vehicle
 
 
@@ -43,31 +43,51 @@ def mission_from(
 
     `vehicle` and `ocean`, already loaded, stand in for the file's own.
     """
-    try:
-        plan = MissionFile.model_validate(document)
-    except ValidationError as error:
-        raise FileError([Problem(origin, key, text) for key, text in sentences(error, MissionFile)]) from None
+    document = with_its_plan(document, origin, folder)
+    scenario = validated(document, ScenarioFile, origin)
     if vehicle is None:
-        beside = folder / plan.vehicle
-        vehicle = load_vehicle(beside if beside.is_file() else plan.vehicle)
-    for key, value in plan.changes.items():
+        vehicle = load_vehicle(beside(folder, scenario.vehicle))
+    for key, value in scenario.changes.items():
         vehicle = vehicle.with_value(key, value)
     vehicle.require_lateral("a mission")
     if ocean is None:
-        ocean = _ocean(plan, folder)
-    mission = Mission(plan, vehicle, ocean, origin, document)
+        ocean = _ocean(scenario, folder)
+    mission = Mission(scenario, vehicle, ocean, origin, document)
     refuse_impossible(mission)
-    return replace(mission, vehicle=ballasted(mission))
+    return replace(mission, vehicle=ballasted(mission.deployment))
 
 
-def _ocean(plan: MissionFile, folder: Path) -> Ocean:
-    choice = plan.ocean
+def with_its_plan(document: Mapping[str, Any], origin: str, folder: Path) -> Mapping[str, Any]:
+    """Return the values of a scenario's file with those of the plan that it names, if it names one.
+
+    Raises
+    ------
+    FileError
+        The plan cannot be read or used, or the scenario says again what its plan says.
+    """
+    if "plan" not in document:
+        return document
+    named = document["plan"]
+    if not isinstance(named, str) or not named:
+        raise FileError([Problem(origin, "plan", f"plan = {named!r}: must be text, the name of a plan's file")])
+    path = beside(folder, named)
+    plan = read_toml(path)
+    validated(plan, Plan, str(path))
+    again = [key for key in document if key in Plan.model_fields and key not in ("format", "name")]
+    if again:
+        told = f"stands here and in the plan {named}; a scenario that names a plan adds the world to it, nothing else"
+        raise FileError([Problem(origin, key, f"{key}: {told}") for key in again])
+    return plan | {key: value for key, value in document.items() if key != "plan"}
+
+
+def _ocean(scenario: ScenarioFile, folder: Path) -> Ocean:
+    choice = scenario.ocean
     beyond: dict[str, Any] = {
         "outside": choice.outside,
         "outside_time": choice.outside_time,
         "climatology": choice.climatology,
         "blend_km": choice.blend_km,
-        "blend_h": choice.blend_h,
+        "blend_hours": choice.blend_hours,
         "folder": folder,
     }
     if choice.name is not None:
@@ -77,20 +97,20 @@ def _ocean(plan: MissionFile, folder: Path) -> Ocean:
         choice.file,
         names=choice.names,
         bounds=choice.bounds_deg,
-        between=_between(plan),
+        between=_between(scenario),
         at_rest=choice.at_rest,
         parameters=choice.parameters,
         **beyond,
     )
 
 
-def _between(plan: MissionFile) -> tuple[float, float] | None:
+def _between(scenario: ScenarioFile) -> tuple[float, float] | None:
     """Times of the file that the mission needs [s since 1970-01-01 UTC]; None where it needs all of them.
 
     A profile has no times, and the mean of a file, where it is the climatology, is over all of them.
     """
-    choice = plan.ocean
+    choice = scenario.ocean
     of_its_own = "climatology" in (choice.outside, choice.outside_time) and choice.climatology is None
     if is_profile(choice.file) or of_its_own:
         return None
-    return plan.start_seconds, plan.end_seconds
+    return scenario.start_seconds, scenario.end_seconds

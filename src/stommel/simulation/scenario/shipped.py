@@ -1,10 +1,11 @@
 """Missions that come with stommel, by name."""
 
-import tomllib
 from importlib.resources import files
 from pathlib import Path
 
 from stommel.errors import StommelError
+from stommel.files.opening import names_file
+from stommel.files.toml_reader import read_toml
 
 
 class UnknownMissionError(StommelError):
@@ -14,7 +15,7 @@ class UnknownMissionError(StommelError):
 def shipped_missions() -> dict[str, str]:
     """Names of the shipped missions, with their titles."""
     found = sorted(_folder().glob("*.toml"))
-    return {path.stem: str(tomllib.loads(path.read_text(encoding="utf-8"))["name"]) for path in found}
+    return {path.stem: str(read_toml(path)["name"]) for path in found}
 
 
 def mission_path(name: str) -> Path:
@@ -23,9 +24,9 @@ def mission_path(name: str) -> Path:
     Raises
     ------
     UnknownMissionError
-        There is neither.
+        No shipped mission has this name, and it is not that of a file.
     """
-    if Path(name).exists():
+    if names_file(name):
         return Path(name)
     names = shipped_missions()
     if name in names:
@@ -34,4 +35,4 @@ def mission_path(name: str) -> Path:
 
 
 def _folder() -> Path:
-    return Path(str(files("stommel.simulation.scenario"))) / "missions"
+    return Path(str(files(__package__))) / "missions"

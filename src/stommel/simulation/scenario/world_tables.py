@@ -1,4 +1,4 @@
-"""The tables of a mission file on what is not the vehicle's choice: ocean, waves, errors of sensors, time steps."""
+"""The tables of a scenario file on what is not the vehicle's choice: ocean, waves, errors of sensors, time steps."""
 
 from typing import Annotated, Literal, Self
 
@@ -8,6 +8,14 @@ from stommel.files.fields import Finite, NotNegative, Positive, Table
 
 Share = Annotated[float, Field(strict=True, ge=0, le=1)]
 Triple = tuple[Finite, Finite, Finite]
+
+
+class Ballasting(Table):
+    """How the vehicle was trimmed before the mission."""
+
+    neutral_depth_m: NotNegative | None = None
+    """Depth at the start at which it is neutral with no ballast volume; if left out, it is neutral
+    in the middle of the densities it meets."""
 
 
 class Sensing(Table):
@@ -124,7 +132,7 @@ class OceanChoice(Table):
     """A second ocean, by name or file; without one the mean of the file is the climatology."""
     blend_km: NotNegative = 50.0
     """Way beyond the edge of the data on which its last values give way to the climatology."""
-    blend_h: NotNegative = 24.0
+    blend_hours: NotNegative = 24.0
     """Time beyond the data in which they do."""
     bounds_deg: tuple[Finite, Finite, Finite, Finite] | None = None
     """South, north, west and east of the region to read; all of the file if left out."""

@@ -16,7 +16,7 @@ FlankAngle = Annotated[float, Field(strict=True, ge=0, lt=45)]
 class DcMotor(Table):
     """Brushed direct-current motor, as its data sheet gives it."""
 
-    torque_constant_mnm_a: Positive
+    torque_constant_mn_m_a: Positive
     """Torque per current; in SI units also the voltage per angular speed."""
     resistance_ohm: Positive
     """Resistance of the winding between the terminals."""
@@ -91,7 +91,7 @@ class PitchMachinery(Table):
 class Brake(Table):
     """Electromagnetic brake on the shaft of the motor."""
 
-    holding_torque_mnm: Positive
+    holding_torque_mn_m: Positive
     """Torque that it holds."""
     power_w: NotNegative
     """Power while its coil is fed."""
@@ -108,7 +108,7 @@ class RudderMachinery(Table):
     """Chord of the blade."""
     stock_chord_fraction: Share
     """Where the stock passes through the blade: distance from the leading edge over the chord."""
-    seal_friction_mnm: NotNegative
+    seal_friction_mn_m: NotNegative
     """Friction of seal and bearings at the stock."""
     motor: DcMotor
     gearbox_ratio: Annotated[float, Field(strict=True, ge=1)]

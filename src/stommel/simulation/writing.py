@@ -1,0 +1,87 @@
+"""Rows of the log: record, samples of the CTD, events, surfacings (compiled)."""
+
+from stommel.compilation import inlined
+from stommel.dynamics.equations import state_from_array
+from stommel.dynamics.inertia import velocities
+from stommel.dynamics.state import DEPTH, R_PX, V_B, Actuation
+from stommel.geometry.attitude import attitude_of
+from stommel.ocean.kernel.column import water_at
+from stommel.ocean.kernel.grid import BOTTOM, SALINITY, Column
+from stommel.simulation.log import EVENT_ROWS, ROWS, SAMPLES, SURFACINGS
+from stommel.simulation.plant.sensing import measured_internal_pressure
+
+
+@inlined
+def salinity_at(column: Column, z: float) -> float:
+    """Absolute Salinity at depth `z` of a filled column [g/kg]."""
+    values = column.values
+    position = max(z, 0.0) / column.dz
+    n = min(int(position), values.shape[0] - 2)
+    share = min(position - n, 1.0)
+    S: float = values[n, SALINITY] + share * (values[n + 1, SALINITY] - values[n, SALINITY])
+    return S
+
+
+@inlined
+def write_row(log, t, age, x, equipment, memory, world, readings, column, noise):  # type: ignore[no-untyped-def]  # compiled only
+    """Write one row of the record (`ROW`)."""
+    by_mass, sensors = equipment.plant.steering.by_mass != 0.0, equipment.sensors
+    state = state_from_array(x)
+    water = water_at(column, x[DEPTH], age)
+    actuation = Actuation(0.0, 0.0, 0.0, 0.0, world.steering if by_mass else 0.0, 0.0)
+    eta = velocities(equipment.vehicle, state, actuation, water, False)
+    true = attitude_of(state.Q)
+    row = log.record[log.counts[ROWS]]
+    log.counts[ROWS] += 1
+    row.time, row.latitude, row.longitude, row.depth = t, world.latitude, world.longitude, x[DEPTH]
+    row.roll, row.pitch, row.heading = true.phi, true.theta, true.psi
+    row.u, row.v, row.w = eta.v_r
+    row.p, row.q, row.r = eta.omega
+    row.moving_mass, row.ballast = x[R_PX], x[V_B] + world.leaked
+    row.rudder = 0.0 if by_mass else world.steering
+    row.roll_mass = world.steering if by_mass else 0.0
+    row.phase = memory.phase
+    row.measured_pitch, row.measured_heading, row.measured_depth = readings.theta, readings.psi, readings.depth
+    row.density, row.temperature, row.salinity = water.rho, water.T, salinity_at(column, x[DEPTH])
+    row.current_north, row.current_east = water.U[0], water.U[1]
+    row.bottom_depth = column.place[BOTTOM]
+    row.reckoned_latitude, row.reckoned_longitude = memory.latitude, memory.longitude
+    row.voltage = world.voltage + sensors.voltage_bias + sensors.voltage_noise * noise.standard_normal()
+    row.current = world.current + sensors.current_bias + sensors.current_noise * noise.standard_normal()
+    pressure = measured_internal_pressure(sensors, world)
+    row.internal_pressure = pressure + sensors.internal_pressure_noise * noise.standard_normal()
+    for j in range(len(world.energy)):
+        row.energy[j] = world.energy[j]
+
+
+@inlined
+def write_sample(log, t, x, water, memory, world, column):  # type: ignore[no-untyped-def]  # compiled only
+    """Write one sample of the CTD (`SAMPLE`)."""
+    row = log.samples[log.counts[SAMPLES]]
+    log.counts[SAMPLES] += 1
+    row.time, row.latitude, row.longitude, row.pressure = t, memory.latitude, memory.longitude, water.P
+    row.thermistor, row.cell = world.thermistor, water.T - world.cell_error
+    row.salinity, row.phase = salinity_at(column, x[DEPTH]), memory.phase
+
+
+@inlined
+def write_event(log, t, memory, world, depth, reason):  # type: ignore[no-untyped-def]  # compiled only
+    """Write down what happened, and why (`EVENT`)."""
+    if log.counts[EVENT_ROWS] < len(log.events):
+        row = log.events[log.counts[EVENT_ROWS]]
+        log.counts[EVENT_ROWS] += 1
+        row.time, row.phase, row.reason = t, memory.phase, reason
+        row.latitude, row.longitude, row.depth = world.latitude, world.longitude, depth
+
+
+@inlined
+def write_surfacing(log, memory, world, t):  # type: ignore[no-untyped-def]  # compiled only
+    """Write down what a stay at the surface told of the time under water before (`SURFACING`)."""
+    if memory.averaged_over > 0.0 and log.counts[SURFACINGS] < len(log.surfacings):
+        row = log.surfacings[log.counts[SURFACINGS]]
+        log.counts[SURFACINGS] += 1
+        row.time, row.latitude, row.longitude = t, memory.submerged_latitude, memory.submerged_longitude
+        row.current_north, row.current_east = memory.current_north, memory.current_east
+        row.true_current_north = world.current_sum_north / world.current_time
+        row.true_current_east = world.current_sum_east / world.current_time
+        row.reckoning_error, row.submerged, row.dive = world.reckoning_error, memory.averaged_over, memory.dives - 1.0

@@ -1,0 +1,221 @@
+"""Oracle: the folder itself. Every verb says in one way what it wrote, and refuses in one way what it cannot write."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.main import get_command
+
+from stommel.cli.app import app
+from stommel.errors import OutputError
+
+MISSION = """
+name = "an hour of dives"
+vehicle = "zju"
+start_time = 2026-07-01T00:00:00Z
+duration_days = 0.04
+start = { latitude_deg = 18.0, longitude_deg = 115.0 }
+waypoints = [{ latitude_deg = 19.0, longitude_deg = 115.0 }]
+dives = { depth_m = 40, pitch_deg = 35, ballast_ml = 200 }
+ocean = { name = "still" }
+"""
+STUDY = """
+name = "two"
+mission = "mission.toml"
+kind = "monte_carlo"
+runs = 2
+parameters = [{ key = "mission.dives.pitch_deg", distribution = "uniform", from = 30, to = 40 }]
+"""
+LOCUS = ("root-locus", "zju", "--over", "wing_position", "--from", "0", "--to", "0.2", "--points", "2")
+PICTURES = ("trial", "sawtooth", "map", "energy", "actuators", "ctd")
+
+
+def both(folder: str, *names: str) -> list[str]:
+    return [f"{folder}/{name}{ending}" for name in names for ending in (".png", ".svg")]
+
+
+WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
+    "design": (("design", "rogue", "--output", "new/r.html"), ["new/r.html"]),
+    "root-locus": ((*LOCUS, "--plot", "l.svg"), ["l.svg"]),
+    "hull": (("hull", "zju", "--plot", "new/h.pdf"), ["new/h.pdf"]),
+    "drives": (("drives", "zju", "--plot", "d.png"), ["d.png"]),
+    "engine": (("engine", "zju", "--inflate-ml", "100", "--plot", "e.png"), ["e.png"]),
+    "endurance": (("endurance", "zju", "--plot", "e.svg"), ["e.svg"]),
+    "budget": (("budget", "zju", "--apply", "mine.toml", "--plot", "b.PNG"), ["mine.toml", "b.PNG"]),
+    "simulate": (
+        ("simulate", "mission.toml", "--output", "m.nc", "--plots", "all"),
+        ["m.nc", *both("all", *PICTURES), "all/mission.html"],
+    ),
+    "study": (("study", "study.toml", "--workers", "1", "--output", "s.nc"), ["s.nc"]),
+    "vehicle new": (("vehicle", "new", "mine.toml"), ["mine.toml"]),
+    "bench generate": (("bench", "generate", "zju", "--output", "new/log.csv"), ["new/log.csv", "new/log.toml"]),
+    "bench analyse": (("bench", "analyse", "bench.csv", "--plots", "p"), both("p", "performance", "response")),
+    "bench fit": (("bench", "fit", "bench.csv", "--plots", "p"), both("p", "fit", "fit-curves")),
+    "bench pressure": (("bench", "pressure", "fan2013-table5", "--plot", "t.png"), ["t.png"]),
+    "ocean show": (("ocean", "show", "pool", "--plot", "o.png"), ["o.png"]),
+}
+"""Every verb that can write, and the files that it then writes."""
+
+SAVE = {"--plot": (".png", ".svg", ".pdf"), "--plots": (), "--apply": (".toml",), "FILE": (".toml",)}
+SAVE_AS = {"design": (".html",), "simulate": (".nc",), "study": (".nc", ".zarr"), "bench generate": (".csv",)}
+"""What the names of written files end with, by option; of --output by verb."""
+
+
+def verbs(group: Any = None, before: str = "") -> Iterator[tuple[str, Any]]:
+    """Every verb of the program, with the words that call it."""
+    for name, command in (group or get_command(app)).commands.items():
+        if hasattr(command, "commands"):
+            yield from verbs(command, f"{before}{name} ")
+        else:
+            yield f"{before}{name}", command
+
+
+def outputs(command: Any) -> list[str]:
+    """Options and arguments of a verb that name what it writes."""
+    return [
+        parameter.opts[0] if parameter.param_type_name == "option" else parameter.metavar
+        for parameter in command.params
+        if parameter.metavar in ("FILE", "FOLDER")
+    ]
+
+
+OUTPUTS = [(verb, option) for verb, command in verbs() for option in outputs(command)]
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mission.toml").write_text(MISSION)
+    (tmp_path / "study.toml").write_text(STUDY)
+    (tmp_path / "file").write_text("in the way")
+    (tmp_path / "folder").mkdir()
+    return tmp_path
+
+
+def files_in(folder: Path) -> set[str]:
+    return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file() and ".runs/" not in str(path)}
+
+
+def test_the_table_holds_every_verb_that_writes() -> None:
+    assert set(WRITERS) == {verb for verb, _ in OUTPUTS}
+    assert {option for _, option in OUTPUTS} == {*SAVE, "--output"}
+
+
+@pytest.mark.parametrize("verb", WRITERS)
+def test_what_was_written_is_listed_and_nothing_else(stommel: Any, folder: Path, verb: str) -> None:
+    arguments, expected = WRITERS[verb]
+    if "bench.csv" in arguments:
+        assert stommel("bench", "generate", "zju", "--output", "bench.csv", "--period-s", 1).status == 0
+    before = files_in(folder)
+    found = stommel(*arguments, "--json")
+    assert found.status == 0, found.err
+    assert found.json["written"] == expected
+    assert not {"plots", "files", "report", "output"} & set(found.json)
+    assert files_in(folder) == before | set(expected)
+    for name in expected:
+        assert (folder / name).stat().st_size > 200
+    if verb in ("vehicle new", "budget"):
+        (folder / "mine.toml").unlink()
+    shown = stommel(*arguments).out.splitlines()
+    assert shown[-len(expected) :] == [f"wrote {name}" for name in expected]
+
+
+@pytest.mark.parametrize("verb", sorted(set(WRITERS) - {"vehicle new", "bench generate", "study", "simulate"}))
+def test_a_verb_that_wrote_nothing_says_so(stommel: Any, folder: Path, verb: str) -> None:
+    arguments, _ = WRITERS[verb]
+    if "bench.csv" in arguments:
+        assert stommel("bench", "generate", "zju", "--output", "bench.csv", "--period-s", 1).status == 0
+    before = files_in(folder)
+    plain = arguments[
+        : min(arguments.index(option) for option in ("--plot", "--plots", "--apply", "--output") if option in arguments)
+    ]
+    found = stommel(*plain, *(("--no-report",) if verb == "design" else ()), "--json")
+    assert found.json["written"] == []
+    assert files_in(folder) == before
+
+
+def refusal(verb: str, option: str, text: str) -> str:
+    """What a verb answers to an output, asked about a vehicle, mission or log that does not exist."""
+    # the output is looked at first: nothing else would be found wrong before the work begins
+    place = [text] if option == "FILE" else [option, text]
+    required = {"root-locus": list(LOCUS[2:])}.get(verb, [])
+    subject = [] if option == "FILE" else ["there-is-no-such-thing"]
+    with pytest.raises(OutputError) as caught:
+        app([*verb.split(), *subject, *required, *place], standalone_mode=False)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(("verb", "option"), OUTPUTS)
+def test_paths_that_cannot_be_written_are_refused_before_any_work(folder: Path, verb: str, option: str) -> None:
+    before = files_in(folder)
+    ending = next(iter(SAVE.get(option) or SAVE_AS.get(verb) or ()), "")
+    long = "n" * 300 + ending
+    words = {
+        "": "names no",
+        "  ": "names no",
+        "/": "is the root" if option == "--plots" else "is a folder",
+        f"file/new{ending}": "Not a directory",
+        long: "File name too long",
+        f"new/{long}": "File name too long",
+        "n/" * 3000 + f"x{ending}": "File name too long",
+        f"/proc/new{ending}": "cannot be written",
+    }
+    if option == "--plots":
+        words["file"] = "Not a directory"
+    else:
+        words |= {"folder": "is a folder", ".": "is a folder", "..": "is a folder"}
+    for text, what in words.items():
+        told = refusal(verb, option, text)
+        assert told.startswith(f"{option} ")
+        assert what in told
+        assert len(told) < 300
+        assert "\n" not in told
+    assert files_in(folder) == before
+    assert sorted(path.name for path in folder.iterdir() if path.is_dir()) == ["folder"]
+
+
+@pytest.mark.parametrize(("verb", "option"), [pair for pair in OUTPUTS if pair[1] != "--plots"])
+def test_another_ending_is_refused_with_those_that_are_allowed(folder: Path, verb: str, option: str) -> None:
+    allowed = SAVE.get(option) or SAVE_AS[verb]
+    for name in ("hull.v2", "plot", "plot.jpeg", "plot.", allowed[0], f"plot{allowed[0]}.old"):
+        told = refusal(verb, option, name)
+        assert told.startswith(f"{option} {name}: the name must end with ")
+        assert re.findall(r"\.[a-z]+\b", told.split("must end with")[1]) == list(allowed)
+
+
+def test_a_path_of_several_lines_is_told_in_one(folder: Path) -> None:
+    assert refusal("drives", "--plot", "a\nb") == r"--plot 'a\nb': the name must end with .png, .svg or .pdf"
+
+
+def test_two_outputs_of_one_name_are_refused(stommel: Any, folder: Path) -> None:
+    found = stommel("simulate", "mission.toml", "--output", "m.nc", "--plots", "m.nc")
+    assert (found.status, found.out) == (2, "")
+    assert found.err == "error: --output m.nc: is the folder of --plots as well\n"
+
+
+@pytest.mark.parametrize(
+    ("ending", "begins"), [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF"), (".SVG", b"<?xml")]
+)
+def test_the_ending_of_a_plot_is_its_format(stommel: Any, folder: Path, ending: str, begins: bytes) -> None:
+    for name in ("one", "two"):
+        found = stommel("bench", "pressure", "fan2013-table5", "--plot", f"{name}{ending}", "--json")
+        assert found.json["written"] == [f"{name}{ending}"]
+    first, second = ((folder / f"{name}{ending}").read_bytes() for name in ("one", "two"))
+    assert first.startswith(begins)
+    assert first == second
+
+
+def test_the_default_report_is_refused_before_any_work_too(stommel: Any, folder: Path) -> None:
+    (folder / "rogue-design.html").mkdir()
+    found = stommel("design", "rogue")
+    assert (found.status, found.out) == (2, "")
+    assert found.err == "error: --output rogue-design.html: cannot be written: it is a folder\n"
+
+
+def test_a_name_of_250_characters_is_written(stommel: Any, folder: Path) -> None:
+    """The longest that file systems take is 255; what is written beside it while it grows must be no longer."""
+    name = "n" * 246 + ".png"
+    assert stommel("bench", "pressure", "fan2013-table5", "--plot", name).status == 0
+    assert (folder / name).read_bytes().startswith(b"\x89PNG")

@@ -43,7 +43,10 @@ EQUILIBRIA = [
 def report() -> Iterator[str]:
     """Yield the lines of the page."""
     yield "# Validation\n"
-    yield "Every number on this page is computed when the page is built, by the version of stommel it documents.\n"
+    yield (
+        "Every number on this page is computed when the page is built, by the version of stommel it documents. "
+        "{doc}`checked` says what agreement means here, and what was never compared with anything.\n"
+    )
     yield from paper_tables()
     yield from design_ranges()
     yield from equilibria()
@@ -61,6 +64,10 @@ def report() -> Iterator[str]:
 def paper_tables() -> Iterator[str]:
     """Tables 1 and 2 of the paper, row by row."""
     zju = stommel.load_vehicle("zju")
+    yield (
+        "The coefficients of `zju` in the vertical plane were recovered from the next two tables, because the paper prints "
+        "none. Their agreement is consistency of equations and numbers, not a validation of the glider.\n"
+    )
     for table in published_tables("zju"):
         yield f"## {table.title}\n"
         yield "| speed m/s | pitch deg | moving mass mm | printed | angle of attack deg | printed | ballast ml | printed |"
@@ -87,7 +94,7 @@ def design_ranges() -> Iterator[str]:
     yield (
         f"The wanted flights need ±{needs.moving_mass_mm:.1f} mm and ±{needs.ballast_ml:.1f} ml. Rounded up to steps of "
         f"50 mm and 50 ml: ±{needs.moving_mass_choice_mm:g} mm and ±{needs.ballast_choice_ml:g} ml. The paper chooses "
-        "±300 mm and ±250 ml.\n"
+        "±300 mm and ±250 ml. The steps are stommel's; the paper does not say how it rounded.\n"
     )
 
 
@@ -158,8 +165,8 @@ def trends() -> Iterator[str]:
     steep = [p for p in range(-60, -30) if _spiral(zju, float(p)) > 0]
     yield (
         "Every oscillatory mode gains damping, as the paper finds. The heave subsidence and, over its first steps, the yaw "
-        "subsidence give a little away. With the cited lateral coefficients the spiral of the ZJU glider diverges in dives "
-        f"steeper than {max(steep, default=-inf):g} deg at 0.4 m/s.\n"
+        "subsidence give a little away. With the lateral coefficients of its file, which were never measured, the spiral of "
+        f"the ZJU glider diverges at a pitch of {max(steep, default=-inf):g} deg and steeper, at 0.4 m/s.\n"
     )
 
 

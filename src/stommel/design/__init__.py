@@ -1,1 +1,1 @@
-"""From analysis to a design: specification check, tables, envelope, modes, root loci, and their report."""
+"""From analysis to a design: hull, engine, drives, masses, endurance, specification, and the whole design study."""

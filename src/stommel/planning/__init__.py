@@ -1,1 +1,1 @@
-"""From a mission to orders: ballast, laws, waypoints, flight table."""
+"""From a mission to orders: ballast, laws, waypoints."""

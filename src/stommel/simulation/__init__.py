@@ -1,1 +1,1 @@
-"""Flies missions: plant (actuators, sensors, power), the compiled loop, results, studies of many missions."""
+"""Flies missions: scenario, plant (actuators, sensors, power), the compiled loop, results and pictures."""

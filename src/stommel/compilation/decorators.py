@@ -1,16 +1,12 @@
-"""One decorator for every compiled function, so that all of them share one floating-point contract.
+"""One decorator for every compiled function, and one for their building blocks."""
 
-The compiler may fuse a multiplication with an addition (`contract`), as C compilers do, but may not reorder sums:
-one machine and one seed give the same bytes. Division by zero follows IEEE 754, as in NumPy.
-"""
-
-import os
 from collections.abc import Callable
 from typing import Any, ParamSpec, TypeVar
 
 import numba
 
-from stommel.compilation.cache import folder_of
+from stommel.compilation.flags import COMPILED, INLINED
+from stommel.compilation.machine_code import keep
 
 _Arguments = ParamSpec("_Arguments")
 _Result = TypeVar("_Result")
@@ -21,15 +17,9 @@ def compiled(function: Callable[_Arguments, _Result]) -> Callable[_Arguments, _R
 
     The same source serves real and complex arguments: a complex step through it gives exact derivatives.
     """
-    decorate: Any = numba.njit(cache=True, error_model="numpy", fastmath={"contract"})
-    config: Any = numba.config
-    before = config.CACHE_DIR
-    if not os.environ.get("NUMBA_CACHE_DIR"):
-        config.CACHE_DIR = str(folder_of(function.__module__.split(".")[1]))
-    try:
-        decorated: Callable[_Arguments, _Result] = decorate(function)
-    finally:
-        config.CACHE_DIR = before
+    decorate: Any = numba.njit(**COMPILED)
+    decorated: Callable[_Arguments, _Result] = decorate(function)
+    keep(decorated)
     return decorated
 
 
@@ -43,6 +33,6 @@ def inlined(function: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Re
     that counting took a fifth of the time.
     """
     njit: Any = numba.njit
-    decorate = njit(error_model="numpy", fastmath={"contract"}, forceinline=True, _nrt=False)
+    decorate = njit(**INLINED)
     decorated: Callable[_Arguments, _Result] = decorate(function)
     return decorated

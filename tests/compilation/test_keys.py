@@ -169,6 +169,15 @@ def test_the_mission_loop_is_compiled_anew_after_a_change_of_its_physics(copy: P
     assert key(copy, LOOP) == before
 
 
+def test_the_mission_loop_is_compiled_anew_after_a_change_of_what_numba_is_told(copy: Path) -> None:
+    before = key(copy, LOOP)
+    path = copy / "geometry" / "elementary_compiled.py"
+    text = path.read_text()
+    edit(copy, "geometry/elementary_compiled.py", "0.5 * x.imag", "0.6 * x.imag")
+    assert key(copy, LOOP) != before
+    path.write_text(text)
+
+
 def functions_of(code: CodeType, names: dict[str, Any]) -> Iterator[FunctionType]:
     """Yield the functions that a function's own globals give it, as Python holds them once all is imported."""
     for name in code.co_names:

@@ -6,12 +6,14 @@ import typer
 
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
 from stommel.cli.output import number, show_json, show_values
+from stommel.compilation import one_question
 
 if TYPE_CHECKING:
     from stommel.analysis.flight import SteadyFlight
     from stommel.vehicle import Physics, Vehicle
 
 
+@one_question()
 def steady(
     vehicle: VehicleArgument,
     moving_mass_mm: Annotated[

@@ -6,8 +6,10 @@ import typer
 
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, SpeedOption, VehicleArgument, load, physics_of
 from stommel.cli.output import number, show_json, show_values
+from stommel.compilation import one_question
 
 
+@one_question()
 def trim(
     vehicle: VehicleArgument,
     speed: SpeedOption,

@@ -16,6 +16,7 @@ from stommel.cli.options import (
     physics_of,
 )
 from stommel.cli.steady import show_turn
+from stommel.compilation import one_question
 
 
 class SteeringChoice(StrEnum):
@@ -25,6 +26,7 @@ class SteeringChoice(StrEnum):
     roll = "roll"
 
 
+@one_question()
 def turn(
     vehicle: VehicleArgument,
     speed: SpeedOption,

@@ -59,6 +59,8 @@ def spelt(unit: str) -> str:
     words = {"deg C": "c", "degrees": "deg", "r/min": "rpm", "A h": "ah", "W h": "wh", "min": "minutes", "h": "hours"}
     if unit in words:
         return words[unit]
+    if unit == "mm/deg":
+        return "mm_per_deg"
     if " per rad" in unit:
         forces, angle = unit.split(" per ")
         return f"per_{angle}_{spelt(forces)}"

@@ -6,7 +6,7 @@ UNITS = {
     # of time and motion; what is longer than a second is a word
     "s": "s", "ms": "ms", "minutes": "min", "hours": "h", "days": "days",
     "m_s": "m/s", "mm_s": "mm/s", "m_s2": "m/s2", "deg_s": "deg/s", "rad_s": "rad/s", "rpm": "r/min",
-    "per_s": "1/s", "per_s2": "1/s2",
+    "per_s": "1/s", "per_s2": "1/s2", "per_m": "1/m", "mm_per_deg": "mm/deg",
     # of mass, force, moment
     "kg": "kg", "kg_m3": "kg/m3", "kg_m2": "kg m2", "g_cm2": "g cm2", "n": "N", "n_m": "N m", "mn_m": "mN m",
     "n_s_m": "N s/m", "n_m_s": "N m s", "mn_m_a": "mN m/A",

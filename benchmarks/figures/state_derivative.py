@@ -10,7 +10,7 @@ from figures.c_kernel import FLAGS, CKernel, NoCompilerError, c_kernel, compiler
 from figures.general_case import ACTUATION, WATER, attached_state, general_vehicle, random_states
 from figures.registry import Measurement, figure
 from figures.timing import alternating, seconds, summary
-from stommel.compilation import inlined
+from stommel.compilation import compiled
 from stommel.dynamics.equations import derivative
 from stommel.dynamics.state import STATE_SIZE, Actuation
 from stommel.seawater.water import Water
@@ -30,7 +30,7 @@ class DisagreementError(Exception):
     """C and Numba compute different things, so that a comparison of their speed means nothing."""
 
 
-@inlined
+@compiled
 def _repeat(
     vehicle: np.record, x: np.ndarray, actuation: Actuation, water: Water, free: bool, out: np.ndarray, n: int
 ) -> float:

@@ -73,21 +73,16 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
-    from stommel.analysis import (
-        SteadyFlight,
-        UnreachableFlightError,
-        authority,
-        best_conditions,
-        flight_envelope,
-        linearise,
-        modes,
-        ranges_needed,
-        root_locus,
-        steady_flight,
-        trim,
-        trim_table,
-        turn,
-    )
+    from stommel.analysis.authority import authority
+    from stommel.analysis.envelope import flight_envelope, ranges_needed
+    from stommel.analysis.flight import SteadyFlight
+    from stommel.analysis.limits import UnreachableFlightError
+    from stommel.analysis.linearization import linearise
+    from stommel.analysis.modes import modes
+    from stommel.analysis.performance import best_conditions
+    from stommel.analysis.root_locus import root_locus
+    from stommel.analysis.trim import steady_flight, trim, trim_table
+    from stommel.analysis.turn import turn
     from stommel.design.study import design_study
     from stommel.errors import StommelError
     from stommel.ocean import Ocean

@@ -1,6 +1,7 @@
 """Oracle: what JSON may hold, and how an answer reads at 80 columns."""
 
 import json
+import re
 from math import inf, nan
 from pathlib import Path
 from typing import Any
@@ -9,8 +10,9 @@ import pytest
 import typer
 
 from stommel.cli.finish import NotFiniteError, finish
-from stommel.cli.output import counted, show_notes, show_values, show_warnings
+from stommel.cli.output import show_notes, show_values, show_warnings
 from stommel.design.named_warning import NamedWarning
+from stommel.files.units import counted
 from stommel.vehicle import builtin_names, load_vehicle, stated_numbers
 
 Captured = pytest.CaptureFixture[str]
@@ -74,7 +76,11 @@ def test_one_day_of_endurance_is_a_day(stommel: Any, tmp_path: Path) -> None:
     (tmp_path / "mine.toml").write_text(text.replace("endurance_days = 20", "endurance_days = 1"))
     shown = stommel("endurance", "mine.toml").out
     assert "1 day asked: met" in shown
-    assert "1 days" not in shown
+    shown += stommel("design", "mine.toml", "--output", "mine.html").out
+    assert re.search(r"Endurance +1 day ", shown)
+    page = (tmp_path / "mine.html").read_text(encoding="utf-8")
+    assert "The 1 day of the specification is met." in page
+    assert not re.search(r"\b1 days\b", shown + page)
 
 
 LONG = "the centre of mass lies out of reach of every part, as rigid_body.centre_of_mass_m and the bays have it"
@@ -94,6 +100,12 @@ def test_notes_values_and_warnings_keep_their_indent(capsys: Captured) -> None:
     assert key_goes_on[9] != " "
     assert other == "  other  short"
     assert max(map(len, (note, note_goes_on, warning, *rest, key, key_goes_on))) <= 80
+
+
+def test_a_path_is_longer_than_a_line_rather_than_broken(capsys: Captured) -> None:
+    path = "/".join(["folder-of-results"] * 8)
+    show_notes([f"see {path} for more"], "note")
+    assert path in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("name", builtin_names())

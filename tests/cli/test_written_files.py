@@ -1,7 +1,8 @@
 """Oracle: the folder itself. Every verb says in one way what it wrote, and refuses in one way what it cannot write."""
 
+import json
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +45,7 @@ WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
     "engine": (("engine", "zju", "--inflate-ml", "100", "--plot", "e.png"), ["e.png"]),
     "endurance": (("endurance", "zju", "--plot", "e.svg"), ["e.svg"]),
     "budget": (("budget", "zju", "--apply", "mine.toml", "--plot", "b.PNG"), ["mine.toml", "b.PNG"]),
+    "flight-table": (("flight-table", "zju", "--output", "f.toml"), ["f.toml"]),
     "simulate": (
         ("simulate", "mission.toml", "--output", "m.nc", "--plots", "all"),
         ["m.nc", *both("all", *PICTURES), "all/mission.html"],
@@ -59,7 +61,13 @@ WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
 """Every verb that can write, and the files that it then writes."""
 
 SAVE = {"--plot": (".png", ".svg", ".pdf"), "--plots": (), "--apply": (".toml",), "FILE": (".toml",)}
-SAVE_AS = {"design": (".html",), "simulate": (".nc",), "study": (".nc", ".zarr"), "bench generate": (".csv",)}
+SAVE_AS = {
+    "design": (".html",),
+    "simulate": (".nc",),
+    "study": (".nc", ".zarr"),
+    "bench generate": (".csv",),
+    "flight-table": (".toml",),
+}
 """What the names of written files end with, by option; of --output by verb."""
 
 
@@ -103,36 +111,50 @@ def test_the_table_holds_every_verb_that_writes() -> None:
     assert {option for _, option in OUTPUTS} == {*SAVE, "--output"}
 
 
+Ask = Callable[..., str]
+
+
+@pytest.fixture
+def ask(folder: Path, capsys: pytest.CaptureFixture[str]) -> Ask:
+    """Ask a verb in this process, and return what it prints."""
+
+    def answer(*arguments: str) -> str:
+        app(list(arguments), standalone_mode=False)
+        return capsys.readouterr().out
+
+    return answer
+
+
+@pytest.fixture
+def logged(folder: Path, ask: Ask) -> None:
+    """Lay a log beside, for the verbs that read one."""
+    ask("bench", "generate", "zju", "--output", "bench.csv", "--period-s", "1")
+
+
 @pytest.mark.parametrize("verb", WRITERS)
-def test_what_was_written_is_listed_and_nothing_else(stommel: Any, folder: Path, verb: str) -> None:
+@pytest.mark.usefixtures("logged")
+def test_what_was_written_is_listed_and_nothing_else(ask: Ask, folder: Path, verb: str) -> None:
     arguments, expected = WRITERS[verb]
-    if "bench.csv" in arguments:
-        assert stommel("bench", "generate", "zju", "--output", "bench.csv", "--period-s", 1).status == 0
     before = files_in(folder)
-    found = stommel(*arguments, "--json")
-    assert found.status == 0, found.err
-    assert found.json["written"] == expected
-    assert not {"plots", "files", "report", "output"} & set(found.json)
+    found = json.loads(ask(*arguments, "--json"))
+    assert found["written"] == expected
+    assert not {"plots", "files", "report", "output"} & set(found)
     assert files_in(folder) == before | set(expected)
     for name in expected:
         assert (folder / name).stat().st_size > 200
     if verb in ("vehicle new", "budget"):
         (folder / "mine.toml").unlink()
-    shown = stommel(*arguments).out.splitlines()
-    assert shown[-len(expected) :] == [f"wrote {name}" for name in expected]
+    assert ask(*arguments).splitlines()[-len(expected) :] == [f"wrote {name}" for name in expected]
 
 
-@pytest.mark.parametrize("verb", sorted(set(WRITERS) - {"vehicle new", "bench generate", "study", "simulate"}))
-def test_a_verb_that_wrote_nothing_says_so(stommel: Any, folder: Path, verb: str) -> None:
+@pytest.mark.parametrize("verb", sorted(set(WRITERS) - {"vehicle new", "bench generate", "study"}))
+@pytest.mark.usefixtures("logged")
+def test_a_verb_that_wrote_nothing_says_so(ask: Ask, folder: Path, verb: str) -> None:
     arguments, _ = WRITERS[verb]
-    if "bench.csv" in arguments:
-        assert stommel("bench", "generate", "zju", "--output", "bench.csv", "--period-s", 1).status == 0
     before = files_in(folder)
-    plain = arguments[
-        : min(arguments.index(option) for option in ("--plot", "--plots", "--apply", "--output") if option in arguments)
-    ]
-    found = stommel(*plain, *(("--no-report",) if verb == "design" else ()), "--json")
-    assert found.json["written"] == []
+    first = next(i for i, word in enumerate(arguments) if word in ("--plot", "--plots", "--apply", "--output"))
+    nothing = ("--no-report",) if verb == "design" else ()
+    assert json.loads(ask(*arguments[:first], *nothing, "--json"))["written"] == []
     assert files_in(folder) == before
 
 
@@ -189,19 +211,17 @@ def test_a_path_of_several_lines_is_told_in_one(folder: Path) -> None:
     assert refusal("drives", "--plot", "a\nb") == r"--plot 'a\nb': the name must end with .png, .svg or .pdf"
 
 
-def test_two_outputs_of_one_name_are_refused(stommel: Any, folder: Path) -> None:
-    found = stommel("simulate", "mission.toml", "--output", "m.nc", "--plots", "m.nc")
-    assert (found.status, found.out) == (2, "")
-    assert found.err == "error: --output m.nc: is the folder of --plots as well\n"
+def test_two_outputs_of_one_name_are_refused(ask: Ask) -> None:
+    with pytest.raises(OutputError, match=r"^--output m\.nc: is the folder of --plots as well$"):
+        ask("simulate", "mission.toml", "--output", "m.nc", "--plots", "m.nc")
 
 
 @pytest.mark.parametrize(
     ("ending", "begins"), [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF"), (".SVG", b"<?xml")]
 )
-def test_the_ending_of_a_plot_is_its_format(stommel: Any, folder: Path, ending: str, begins: bytes) -> None:
+def test_the_ending_of_a_plot_is_its_format(ask: Ask, folder: Path, ending: str, begins: bytes) -> None:
     for name in ("one", "two"):
-        found = stommel("bench", "pressure", "fan2013-table5", "--plot", f"{name}{ending}", "--json")
-        assert found.json["written"] == [f"{name}{ending}"]
+        ask("bench", "pressure", "fan2013-table5", "--plot", f"{name}{ending}")
     first, second = ((folder / f"{name}{ending}").read_bytes() for name in ("one", "two"))
     assert first.startswith(begins)
     assert first == second
@@ -214,8 +234,8 @@ def test_the_default_report_is_refused_before_any_work_too(stommel: Any, folder:
     assert found.err == "error: --output rogue-design.html: cannot be written: it is a folder\n"
 
 
-def test_a_name_of_250_characters_is_written(stommel: Any, folder: Path) -> None:
+def test_a_name_of_250_characters_is_written(ask: Ask, folder: Path) -> None:
     """The longest that file systems take is 255; what is written beside it while it grows must be no longer."""
     name = "n" * 246 + ".png"
-    assert stommel("bench", "pressure", "fan2013-table5", "--plot", name).status == 0
+    ask("bench", "pressure", "fan2013-table5", "--plot", name)
     assert (folder / name).read_bytes().startswith(b"\x89PNG")

@@ -13,6 +13,7 @@ import pytest
 from stommel.dynamics import parameters, state
 from stommel.dynamics.parameters import VEHICLE_RECORD
 from stommel.dynamics.state import Actuation, State
+from stommel.seawater import water
 from stommel.seawater.water import Water
 
 THEORY = Path(__file__).parents[2] / "docs" / "theory"
@@ -90,7 +91,8 @@ def test_every_row_names_something_in_its_module(row: Row) -> None:
 
 REQUIRED = {
     **{f"vehicle.{field}": parameters for field in VEHICLE_RECORD.names or ()},
-    **{f"{kind.__name__}.{field}": state for kind in (State, Actuation, Water) for field in kind._fields},
+    **{f"{kind.__name__}.{field}": state for kind in (State, Actuation) for field in kind._fields},
+    **{f"Water.{field}": water for field in Water._fields},
 }
 
 

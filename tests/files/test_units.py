@@ -59,6 +59,8 @@ def spelt(unit: str) -> str:
     words = {"deg C": "c", "degrees": "deg", "r/min": "rpm", "A h": "ah", "W h": "wh", "min": "minutes", "h": "hours"}
     if unit in words:
         return words[unit]
+    if unit == "mm/deg":
+        return "mm_per_deg"
     if " per rad" in unit:
         forces, angle = unit.split(" per ")
         return f"per_{angle}_{spelt(forces)}"
@@ -86,7 +88,7 @@ def test_every_number_says_its_unit(key: str) -> None:
     assert ending == spelt(unit)
     assert words.endswith("_") or not words
     # a torque constant in mn_m_a is no current: what stands before the unit is a word, not more of the unit
-    symbols = {part for unit in UNITS.values() for part in spelt(unit).split("_")} - {"per", "minutes"}
+    symbols = {part for unit in UNITS.values() for part in spelt(unit).split("_")} - {"minutes"}
     assert words.removesuffix("_").rsplit("_", 1)[-1] not in symbols
 
 

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from stommel.errors import StommelError
-from stommel.geometry import earth as geodesy
+from stommel.geometry import geodesics as geodesy
 from stommel.ocean import LandError, Ocean, OutsideOceanError
 from stommel.ocean.reading.netcdf import YEAR
 from tests.ocean.conftest import Writer, regular_sea

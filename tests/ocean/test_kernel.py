@@ -8,7 +8,7 @@ from numba.core.runtime import _nrt_python, rtsys
 from pyproj import CRS, Geod, Transformer
 
 from stommel.compilation import compiled
-from stommel.geometry import earth as geodesy
+from stommel.geometry import geodesics as geodesy
 from stommel.ocean import Ocean
 from stommel.ocean.kernel.chart import chart_at, project
 from stommel.ocean.kernel.column import fill_column, water_at

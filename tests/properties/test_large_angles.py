@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from stommel.compilation import inlined
+from stommel.compilation import compiled
 from stommel.dynamics.acceleration import state_of
 from stommel.dynamics.hydrodynamics import viscous_forces
 from stommel.dynamics.integration import integrate
@@ -24,7 +24,7 @@ RATES = (0.1, -0.2, 0.15)
 NO_RATES = (0.0, 0.0, 0.0)
 
 
-@inlined
+@compiled
 def _sweep(vehicle, alpha, beta, V, omega, delta_r, out):  # type: ignore[no-untyped-def]
     for i in range(len(alpha)):
         cos_beta = math.cos(beta[i])

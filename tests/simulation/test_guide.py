@@ -13,9 +13,12 @@ from typing import Any, get_args
 import pytest
 from pydantic import BaseModel
 
+from stommel.mission.loading import load_plan
+from stommel.simulation.flight import fly_mission
 from stommel.simulation.scenario.loading import load_mission, mission_from
 from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.scenario_file import ScenarioFile
+from stommel.simulation.scenario.shipped import mission_path
 from tests.support.command import Command
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -23,7 +26,7 @@ GUIDE = (DOCS / "guide" / "missions.md").read_text(encoding="utf-8")
 
 
 def blocks(language: str) -> list[str]:
-    return re.findall(rf"```{language}\n(.*?)```", GUIDE, re.S)
+    return re.findall(rf"```{re.escape(language)}\n(.*?)```", GUIDE, re.S)
 
 
 WHOLE, *ADDITIONS = blocks("toml")
@@ -108,3 +111,17 @@ def tables_of(model: type[BaseModel], name: str = "") -> Iterator[tuple[str, typ
     for key, field in model.model_fields.items():
         for inner in models_in(field.annotation):
             yield from tables_of(inner, f"{name}.{key}".lstrip("."))
+
+
+def test_plan_of_the_guide_is_a_plan(tmp_path: Path) -> None:
+    (plan,) = blocks("{code-block} toml")
+    (tmp_path / "buoy.toml").write_text(plan)
+    assert load_plan(tmp_path / "buoy.toml").name == "To the buoy and back"
+
+
+def test_controller_of_the_guide_flies() -> None:
+    (code,) = blocks("{code-block} python")
+    namespace: dict[str, Any] = {}
+    exec(code, namespace)
+    found = fly_mission(load_mission(mission_path("pool_trial")), controller=namespace["steady_rudder"])
+    assert (found.record["rudder"] == 0.0).all()

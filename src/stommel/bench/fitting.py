@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from stommel.bench.failures import BenchRequestError
 from stommel.bench.identifiability import require_identifiable, warnings_of
 from stommel.bench.performance import RunPerformance
+from stommel.files.units import counted
 from stommel.machinery.engine.steady_state import EngineParameters, steady_state
 
 Array = NDArray[np.float64]
@@ -152,7 +153,8 @@ def _check_request(runs: Sequence[RunPerformance], start: EngineParameters, name
         raise BenchRequestError("parameters to fit: name at least one, and none twice")
     if 2 * len(runs) < len(names) + 4:
         raise BenchRequestError(
-            f"{len(runs)} runs give {2 * len(runs)} numbers, too few for {len(names)} parameters with an uncertainty; "
+            f"{counted(len(runs), 'run gives', 'runs give')} {2 * len(runs)} numbers, too few for "
+            f"{counted(len(names), 'parameter')} with an uncertainty; "
             f"at least {(len(names) + 5) // 2} runs"
         )
 

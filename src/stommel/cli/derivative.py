@@ -8,6 +8,7 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.compilation import one_question
 
 
 class ActuatorChoice(StrEnum):
@@ -17,6 +18,7 @@ class ActuatorChoice(StrEnum):
     free = "free"
 
 
+@one_question()
 def derivative(
     vehicle: VehicleArgument,
     states: Annotated[Path, typer.Option("--states", help="JSON file with a list of states.")],

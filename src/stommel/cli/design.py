@@ -10,6 +10,7 @@ from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
 from stommel.cli.output import show_notes, show_table, show_values
 from stommel.cli.paths import file_parser
+from stommel.files.units import counted
 
 if TYPE_CHECKING:
     from stommel.design.study import DesignStudy
@@ -68,8 +69,8 @@ def _show(study: "DesignStudy") -> None:
         rows = [
             [
                 row.name,
-                f"{row.required:g} {row.unit}",
-                "-" if row.found is None else f"{row.found:.4g} {row.unit}",
+                _with_unit(f"{row.required:g}", row.unit),
+                "-" if row.found is None else _with_unit(f"{row.found:.4g}", row.unit),
                 {True: "met", False: "NOT MET", None: "not known"}[row.met],
             ]
             for row in study.specification
@@ -87,6 +88,10 @@ def _show(study: "DesignStudy") -> None:
     if study.unanswered:
         parts = ", ".join(part for part, _ in study.unanswered)
         show_notes([f"{parts}: the report and --json say why"], "not answered")
+
+
+def _with_unit(text: str, unit: str) -> str:
+    return counted(text, "day") if unit == "days" else f"{text} {unit}"
 
 
 def _verdict(study: "DesignStudy") -> dict[str, str]:

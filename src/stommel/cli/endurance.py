@@ -6,8 +6,9 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
-from stommel.cli.output import counted, number, show_table, show_values
+from stommel.cli.output import number, show_table, show_values
 from stommel.cli.paths import PlotOption
+from stommel.files.units import counted
 
 if TYPE_CHECKING:
     from stommel.design.endurance import BestFlight, EnergyStudy, Gap, Sensitivity

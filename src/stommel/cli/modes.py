@@ -14,11 +14,13 @@ from stommel.cli.options import (
     physics_of,
 )
 from stommel.cli.output import number, show_table, show_values
+from stommel.compilation import one_question
 
 if TYPE_CHECKING:
     from stommel.analysis import Authority, Mode, Modes
 
 
+@one_question()
 def modes(
     vehicle: VehicleArgument,
     speed: SpeedOption,

@@ -89,12 +89,6 @@ def number(value: float | None, digits: int, unit: str = "") -> str:
     return f"{text} {unit}".rstrip()
 
 
-def counted(count: str | float, one: str, many: str = "") -> str:
-    """A number with its noun: 1 day, 2 days, 11.7 days."""
-    text = count if isinstance(count, str) else f"{count:.12g}"
-    return f"{text} {one if text == '1' else many or f'{one}s'}"
-
-
 def _is_text(cell: str) -> bool:
     return any(letter.isalpha() for letter in cell.replace("inf", "").replace("e", ""))
 

@@ -10,10 +10,11 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption
-from stommel.cli.output import counted, number, show_table, show_values
+from stommel.cli.output import number, show_table, show_values
 from stommel.cli.paths import PlotsOption, file_parser
 from stommel.cli.status import INTERRUPTED
 from stommel.errors import OutputError
+from stommel.files.units import counted
 
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn

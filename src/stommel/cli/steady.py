@@ -15,12 +15,14 @@ from stommel.cli.options import (
     physics_of,
 )
 from stommel.cli.output import number, show_values
+from stommel.compilation import one_question
 
 if TYPE_CHECKING:
     from stommel.analysis.flight import SteadyFlight
     from stommel.vehicle import Physics, Vehicle
 
 
+@one_question()
 def steady(
     vehicle: VehicleArgument,
     moving_mass_mm: Annotated[

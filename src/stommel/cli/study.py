@@ -10,9 +10,10 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption
-from stommel.cli.output import counted, show_table
+from stommel.cli.output import show_table
 from stommel.cli.paths import parser_with
 from stommel.cli.status import INTERRUPTED
+from stommel.files.units import counted
 
 if TYPE_CHECKING:
     from stommel.studies.run import Finished

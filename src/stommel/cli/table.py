@@ -8,11 +8,13 @@ from stommel.cli.finish import finish
 from stommel.cli.numbers import MOST, NumberError, numbers
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
 from stommel.cli.output import number, show_table
+from stommel.compilation import one_question
 
 if TYPE_CHECKING:
     from stommel.analysis.trim import TrimRow
 
 
+@one_question()
 def table(
     vehicle: VehicleArgument,
     speed: Annotated[str, typer.Option("--speed", help="Speeds [m/s]: 0.4, or 0.2,0.4, or 0.1:0.8:0.1.")],

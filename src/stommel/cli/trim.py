@@ -16,11 +16,13 @@ from stommel.cli.options import (
     physics_of,
 )
 from stommel.cli.output import number, show_values
+from stommel.compilation import one_question
 
 if TYPE_CHECKING:
     from stommel.analysis.flight import SteadyFlight
 
 
+@one_question()
 def trim(
     vehicle: VehicleArgument,
     speed: SpeedOption,

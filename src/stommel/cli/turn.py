@@ -17,6 +17,7 @@ from stommel.cli.options import (
     physics_of,
 )
 from stommel.cli.steady import finish_turn
+from stommel.compilation import one_question
 
 
 class SteeringChoice(StrEnum):
@@ -26,6 +27,7 @@ class SteeringChoice(StrEnum):
     roll = "roll"
 
 
+@one_question()
 def turn(
     vehicle: VehicleArgument,
     speed: SpeedOption,

@@ -7,8 +7,9 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import ForceOption, JsonOption, VehicleArgument, load
-from stommel.cli.output import counted, number, show_entries, show_notes, show_table, show_values
+from stommel.cli.output import number, show_entries, show_notes, show_table, show_values
 from stommel.cli.paths import file_parser, refuse_existing
+from stommel.files.units import counted
 
 vehicle_app = typer.Typer(help="Look at, check and begin vehicle files.")
 

@@ -1,5 +1,6 @@
-"""What compiles: the decorators of every compiled function, and where its machine code is kept."""
+"""What compiles: the decorators of compiled functions, when the compiler is wanted, where machine code is kept."""
 
-from stommel.compilation.decorators import compiled, inlined
+from stommel.compilation.compiler import before_compiling, one_question
+from stommel.compilation.decorators import compiled, inlined, plain
 
-__all__ = ["compiled", "inlined"]
+__all__ = ["before_compiling", "compiled", "inlined", "one_question", "plain"]

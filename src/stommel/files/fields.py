@@ -31,7 +31,7 @@ Tensor = Annotated[Matrix3, BeforeValidator(_as_matrix)]
 class Table(BaseModel):
     """A table of a vehicle file."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=False, defer_build=True)
 
 
 def ordered(name: str, interval: Interval) -> None:

@@ -6,6 +6,7 @@ UNITS = {
     # of time and motion; what is longer than a second is a word
     "s": "s", "ms": "ms", "minutes": "min", "hours": "h", "days": "days",
     "m_s": "m/s", "mm_s": "mm/s", "m_s2": "m/s2", "deg_s": "deg/s", "rad_s": "rad/s", "rpm": "r/min",
+    "per_s": "1/s", "per_s2": "1/s2", "per_m": "1/m", "mm_per_deg": "mm/deg",
     # of mass, force, moment
     "kg": "kg", "kg_m3": "kg/m3", "kg_m2": "kg m2", "g_cm2": "g cm2", "n": "N", "n_m": "N m", "mn_m": "mN m",
     "n_s_m": "N s/m", "n_m_s": "N m s", "mn_m_a": "mN m/A",
@@ -33,3 +34,9 @@ def unit_of(key: str) -> str | None:
     """Unit that the name of a key ends with, or None; an index at the end of a dotted key counts for its list."""
     name = next((part for part in reversed(key.split(".")) if not part.isdigit()), key)
     return next((UNITS[ending] for ending in _LONGEST_FIRST if f"_{name}".endswith(f"_{ending}")), None)
+
+
+def counted(count: str | float, one: str, many: str = "") -> str:
+    """A number with its noun: 1 day, 2 days, 11.7 days."""
+    text = count if isinstance(count, str) else f"{count:.12g}"
+    return f"{text} {one if text == '1' else many or f'{one}s'}"

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.files.units import counted
 from stommel.studies.errors import StudyError, StudyInterruptedError
 from stommel.studies.journal import Journal
 from stommel.studies.result import check_output, check_outputs, dataset_of, outputs_of, sensitivity_in
@@ -132,7 +133,8 @@ def run_study(
                 progress(len(records), runs)
         if len(records) < runs:
             raise StudyInterruptedError(
-                f"interrupted: {len(records)} of {runs} runs are kept in {journal.folder}; the same command goes on"
+                f"interrupted: {len(records)} of {counted(runs, 'run is', 'runs are')} kept in {journal.folder}; "
+                "the same command goes on"
             )
         return _finish(study, output, records, kept)
 

@@ -20,8 +20,9 @@ from stommel.cli.bench.options import (
 )
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, load
-from stommel.cli.output import counted, number, show_table
+from stommel.cli.output import number, show_table
 from stommel.cli.paths import PlotsOption
+from stommel.files.units import counted
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -15,8 +15,9 @@ from stommel.cli.bench.options import (
 )
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, load
-from stommel.cli.output import counted, show_notes, show_table, show_warnings
+from stommel.cli.output import show_notes, show_table, show_warnings
 from stommel.cli.paths import PlotsOption
+from stommel.files.units import counted
 
 if TYPE_CHECKING:
     from stommel.bench import EngineFit, EngineLog

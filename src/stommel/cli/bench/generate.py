@@ -9,8 +9,8 @@ import typer
 from stommel.cli.finish import finish
 from stommel.cli.numbers import numbers
 from stommel.cli.options import JsonOption, VehicleArgument, load
-from stommel.cli.output import counted
 from stommel.cli.paths import file_parser
+from stommel.files.units import counted
 
 
 def generate(

@@ -7,8 +7,9 @@ import typer
 from stommel.cli.finish import finish
 from stommel.cli.ocean.choice import OceanOptionError, between, bounds, open_ocean, pairs, place
 from stommel.cli.options import JsonOption
-from stommel.cli.output import counted, number, show_values
+from stommel.cli.output import number, show_values
 from stommel.cli.paths import PlotOption
+from stommel.files.units import counted
 
 _DEEPEST_M = 11300.0
 """As `stommel.ocean.answers.DEEPEST`, which is not imported at the start."""

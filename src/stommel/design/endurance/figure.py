@@ -9,6 +9,7 @@ from stommel.design.endurance.endurance import SELF_DISCHARGE
 from stommel.design.endurance.sensitivity import Sensitivity
 from stommel.design.endurance.study import EnergyStudy
 from stommel.figures.style import BLUE, GREEN, INK, MUTED, ORANGE, PURPLE, SKY, VERMILION, new_figure, styled
+from stommel.files.units import counted
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -131,7 +132,7 @@ def _draw_speeds(left: "Axes", right: "Axes", study: EnergyStudy) -> None:
     if study.target_days is not None:
         left.axhline(study.target_days, color=INK, linewidth=1.0, linestyle=(0, (4, 2)))
         left.annotate(
-            f"specification: {study.target_days:g} days", (0.99, study.target_days),
+            f"specification: {counted(study.target_days, 'day')}", (0.99, study.target_days),
             xycoords=("axes fraction", "data"), xytext=(0, 4), textcoords="offset points", ha="right", fontsize=8.4,
         )  # fmt: skip
     for axes, name in ((left, "Endurance [days]"), (right, "Range [km]")):

@@ -1,0 +1,117 @@
+"""When the compiler is imported, and what runs without it.
+
+A library compiles: the first call of a compiled function imports Numba, which takes half a second, and every call then
+takes microseconds. One question on the command line is answered sooner as plain Python, unless it turns out to be a
+long one. Where Numba is missing, as on a vehicle's small computer, or `STOMMEL_COMPILE=0` forbids it, all runs as plain
+Python.
+"""
+
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import cache
+from importlib.util import find_spec
+from typing import Any
+
+PATIENCE = 250
+"""Calls of compiled functions as plain Python, a quarter of a second, after which a question is a long one."""
+
+
+class CompilerWantedError(Exception):
+    """The function is not done as plain Python, and its arguments are as they were."""
+
+
+class _TooLongError(Exception):
+    pass
+
+
+class _Question:
+    """What is being asked of this process: one question, or any number of them (a library)."""
+
+    is_one = False
+    is_running = False
+    """A compiled function is running as plain Python, and may call others."""
+    calls = 0
+
+
+_question = _Question()
+_extensions: list[Callable[[], None]] = []
+
+
+@contextmanager
+def one_question() -> Iterator[None]:
+    """Run compiled functions as plain Python here, as long as that is the shorter way; the last digits may differ."""
+    before, _question.is_one, _question.calls = _question.is_one, True, 0
+    try:
+        yield
+    finally:
+        _question.is_one = before
+
+
+@cache
+def is_available() -> bool:
+    """Tell whether there is a compiler, and nobody forbids it."""
+    forbidden = os.environ.get("STOMMEL_COMPILE") == "0" or os.environ.get("NUMBA_DISABLE_JIT", "0") not in {"", "0"}
+    return not forbidden and find_spec("numba") is not None
+
+
+def runs_plain() -> bool:
+    """Tell whether a function without machine code runs as plain Python now."""
+    return not is_available() or _question.is_running or (_question.is_one and _question.calls <= PATIENCE)
+
+
+def run_plain(function: Callable[..., Any], arguments: tuple[Any, ...], named: Mapping[str, Any]) -> Any:
+    """Run a compiled function as plain Python, with floating-point errors as in compiled code.
+
+    Raises
+    ------
+    CompilerWantedError
+        It takes too long, or stops where compiled code goes on with infinity or NaN (1.0 / 0.0, the root of -1).
+    """
+    import numpy as np  # noqa: PLC0415 - `stommel --help` does without
+
+    _question.calls += 1
+    if _question.is_running:
+        if _question.calls > PATIENCE and is_available():
+            raise _TooLongError
+        return function(*arguments, **named)
+    given = (*arguments, *named.values()) if is_available() else ()
+    arrays = [one for one in given if isinstance(one, np.ndarray) and one.flags.writeable]
+    before = [array.copy() for array in arrays]
+    _question.is_running = True
+    try:
+        with np.errstate(all="ignore"):
+            return function(*arguments, **named)
+    except (_TooLongError, ArithmeticError, ValueError) as error:
+        if not is_available():
+            raise
+        for array, old in zip(arrays, before, strict=True):
+            array[...] = old
+        raise CompilerWantedError from error
+    finally:
+        _question.is_running = False
+
+
+def before_compiling(extension: Callable[[], None]) -> Callable[[], None]:
+    """Call the decorated function once before anything is compiled: it tells Numba what it needs to know."""
+    if sys.modules.get("numba"):
+        extension()
+    else:
+        _extensions.append(extension)
+    return extension
+
+
+def dispatcher_of(function: Callable[..., Any], flags: Mapping[str, Any], *, kept: bool) -> Any:
+    """Return a function as Numba holds it; its machine code is `kept` on disk, or lies within its callers."""
+    import numba  # noqa: PLC0415 - half a second
+
+    while _extensions:
+        _extensions.pop()()
+    decorate: Any = numba.njit(**flags)
+    dispatcher = decorate(function)
+    if kept:
+        from stommel.compilation.machine_code import keep  # noqa: PLC0415 - imports Numba
+
+        keep(dispatcher)
+    return dispatcher

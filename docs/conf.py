@@ -1,13 +1,14 @@
 """Configuration of the documentation (Sphinx)."""
 
-import os
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_extensions"))
-# compiled functions stay plain Python, which autodoc can describe
-os.environ["NUMBA_DISABLE_JIT"] = "1"
+# the pages describe the functions themselves, not what compiles them
+import stommel.compilation  # noqa: E402
+
+stommel.compilation.compiled = stommel.compilation.inlined = lambda function: function
 
 project = "stommel"
 author = "the stommel authors"

@@ -116,7 +116,7 @@ def write_aircraft(flight: ReferenceFlight, folder: Path, *, uniform: bool = Fal
     """
     depths = np.arange(0.0, 1.5 * flight.mission.scenario.dives.depth_m, 5.0)
     if uniform:
-        density = np.full_like(depths, flight.mission.vehicle.description.water.density_kg_m3)
+        density = np.full_like(depths, flight.mission.vehicle.neutral_density_kg_m3)
         hull_volume = np.full_like(depths, flight.vehicle.V_0)
     else:
         density, hull_volume = flight.water(depths)

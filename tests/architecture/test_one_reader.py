@@ -17,7 +17,7 @@ OPENS = {
     "files/opening.py": "the one place",
     "files/whole.py": "writes",
     "cli/__init__.py": "the null device",
-    "compilation/cache.py": "the package's own source",
+    "compilation/sources.py": "the package's own source",
     "design/published/__init__.py": "the package's own data",
     "ocean/reading/classic.py": "after files/opening.py has looked at the file",
     "studies/study.py": "digest of ocean files that were read before",

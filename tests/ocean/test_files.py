@@ -253,6 +253,6 @@ def test_wrong_options_are_refused(sea_file: Writer, options: dict[str, Any], wo
 
 def test_what_is_no_netcdf_file(tmp_path: Path) -> None:
     (tmp_path / "text.nc").write_text("not NetCDF")
-    for name in ("text.nc", "missing.nc"):
-        with pytest.raises(FileError, match="cannot be read as NetCDF"):
+    for name, why in (("text.nc", "cannot be read as NetCDF"), ("missing.nc", "cannot be read: No such file")):
+        with pytest.raises(FileError, match=why):
             Ocean.open(tmp_path / name)

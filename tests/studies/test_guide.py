@@ -15,7 +15,7 @@ def test_example(stommel: Command, tmp_path: Path) -> None:
     mission, study = blocks(GUIDE, "toml")
     (tmp_path / "dives.toml").write_text(mission)
     (tmp_path / "drift.toml").write_text(study)
-    (arguments,) = commands(GUIDE, "study")
+    arguments, *_ = commands(GUIDE, "study")
     done = stommel(*arguments)
     assert done.status == 0, done.err
     assert "16 runs flown" in done.out

@@ -255,5 +255,6 @@ def _push(network: Network, y: Array, i: int) -> float:
         states, network.nodes, network.pumps, network.passages, network.pistons, network.drive, network.opened,
         network.moving, network.events,
     )  # fmt: skip
-    node = network.pistons[i]["node"]
-    return float(piston_push(network.pistons[i], seen[0, FIRST_PRESSURE + node], network.nodes[node]))
+    pistons, nodes = network.pistons.view(np.recarray), network.nodes.view(np.recarray)
+    node = int(pistons[i].node)
+    return float(piston_push(pistons[i], seen[0, FIRST_PRESSURE + node], nodes[node]))

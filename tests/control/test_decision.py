@@ -65,7 +65,7 @@ def test_called_alone_it_flies_the_same_bytes(own: Flown) -> None:
 
 
 def test_plain_python_decides_as_compiled_code(own: Flown) -> None:
-    """Only rounding differs, and what follows where it moves a threshold by a decision: the compiler fuses operations."""
+    """Only rounding differs, and what follows where it moves a threshold by a decision: compilers fuse operations."""
     found = fly_mission(made(mission_document(**SHORT)), controller=with_laws())
     same(found, own, rtol=1e-3)
     np.testing.assert_allclose(column(found, "depth"), column(own, "depth"), atol=1e-3)

@@ -39,3 +39,10 @@ def test_every_example_is_shown() -> None:
     assert set(re.findall(r"\.\./examples/(\w+\.py)", page)) == {
         path.name for path in (DOCS.parent / "examples").glob("*.py")
     }
+
+
+def test_decisions_are_numbered_in_their_order() -> None:
+    files = sorted((DOCS / "decisions").glob("0*.md"))
+    assert [path.name[:4] for path in files] == [f"{number:04d}" for number in range(1, len(files) + 1)]
+    for path in files:
+        assert path.read_text(encoding="utf-8").startswith(f"# {path.name[:4]} ")

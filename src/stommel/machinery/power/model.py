@@ -93,7 +93,7 @@ def energy_model(vehicle: Vehicle, *, temperature_c: float | None = None) -> Ene
     """
     d = vehicle.description
     deepest = d.hull.depth_rating_m if d.hull and d.hull.depth_rating_m else DEEPEST_M
-    actuators = ActuatorModels(vehicle, d.water.density_kg_m3 * d.water.gravity_m_s2 * deepest)
+    actuators = ActuatorModels(vehicle, vehicle.neutral_density_kg_m3 * d.water.gravity_m_s2 * deepest)
     lacking = [*_lacking(d), *actuators.lacking()]
     if lacking:
         raise FileError([Problem(vehicle.origin, key, f"{key} is missing: {why}") for key, why in lacking])
@@ -109,7 +109,7 @@ def energy_model(vehicle: Vehicle, *, temperature_c: float | None = None) -> Ene
         consumers=d.consumers,
         works=actuators.works(plan),
         actuators=actuators,
-        rho=d.water.density_kg_m3,
+        rho=vehicle.neutral_density_kg_m3,
         g=d.water.gravity_m_s2,
         temperature_c=d.water.temperature_c if temperature_c is None else temperature_c,
         surface_volume_m3=surface / 1e6,

@@ -78,7 +78,7 @@ def heave_period(mission: Mission) -> float:
     if d.hull is None or d.hull.outer_diameter_mm is None or tilt < 0.1:
         return HEAVE_PERIOD
     area = 0.25 * pi * (d.hull.outer_diameter_mm / 1e3) ** 2 / tilt
-    stiffness = d.water.density_kg_m3 * d.water.gravity_m_s2 * area
+    stiffness = mission.vehicle.neutral_density_kg_m3 * d.water.gravity_m_s2 * area
     return 2.0 * pi * sqrt((d.mass_kg + d.added_inertia.heave_kg) / stiffness)
 
 

@@ -176,8 +176,11 @@ def reference_page(package: str) -> str:
     module = import_module(package)
     homes = _homes(module)
     page = [package, "=" * len(package), "", f".. automodule:: {package}", "   :ignore-module-all:", ""]
-    page += [".. rubric:: Names that the package passes on", ""] if homes else []
-    page += [f":py:obj:`{name} <{home}>`\n   {_summary(getattr(module, name))}\n" for name, home in homes.items()]
+    if package == "stommel":
+        page += ["The names of the front door stand on the page :doc:`/reference`.", ""]
+    elif homes:
+        page += [".. rubric:: Names that the package passes on", ""]
+        page += [f":py:obj:`{name} <{home}>`\n   {_summary(getattr(module, name))}\n" for name, home in homes.items()]
     inner = sorted(pkgutil.iter_modules(module.__path__, f"{package}."), key=lambda info: not info.ispkg)
     if packages := [info.name for info in inner if info.ispkg]:
         page += [".. rubric:: Packages inside", ""]

@@ -220,3 +220,20 @@ def test_a_process_answers_without_the_compiler(before: str, environment: dict[s
     assert without == "True"
     expected = trim(load_vehicle("zju"), speed_m_s=0.4, pitch_deg=-35.0).r_px
     assert float(position) == pytest.approx(expected, rel=SAME)
+
+
+PUMP = """
+from stommel import load_vehicle
+from stommel.machinery.engine import engine_of, simulate
+run = simulate(engine_of(load_vehicle("zju")).engine, pressure_pa=2e6, inflate_m3=500e-6)
+print(run.as_json()["duration_s"])
+"""
+
+
+def test_an_engine_runs_without_the_compiler() -> None:
+    """Its arrays of records are read by name; about 80 s are published (section 5.1.2 of the paper)."""
+    done = subprocess.run(
+        [sys.executable, "-c", PUMP],
+        env=os.environ | {"STOMMEL_COMPILE": "0"}, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert float(done.stdout) == pytest.approx(80.0, abs=0.5)

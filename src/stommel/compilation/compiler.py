@@ -82,7 +82,7 @@ def run_plain(function: Callable[..., Any], arguments: tuple[Any, ...], named: M
     _question.is_running = True
     try:
         with np.errstate(all="ignore"):
-            return function(*arguments, **named)
+            return function(*map(_by_name, arguments), **{name: _by_name(one) for name, one in named.items()})
     except (_TooLongError, ArithmeticError, ValueError) as error:
         if not is_available():
             raise
@@ -91,6 +91,14 @@ def run_plain(function: Callable[..., Any], arguments: tuple[Any, ...], named: M
         raise CompilerWantedError from error
     finally:
         _question.is_running = False
+
+
+def _by_name(argument: Any) -> Any:
+    """An array of records whose rows give their fields as attributes, as they do in compiled code."""
+    import numpy as np  # noqa: PLC0415
+
+    structured = isinstance(argument, np.ndarray) and argument.dtype.names is not None
+    return argument.view(np.recarray) if structured else argument
 
 
 def before_compiling(extension: Callable[[], None]) -> Callable[[], None]:

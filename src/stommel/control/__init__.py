@@ -1,1 +1,1 @@
-"""Laws that fly a glider, as pure compiled functions: guidance, dive cycle, pitch, heading, buoyancy."""
+"""The vehicle's decisions as pure functions: readings in, commands out; dive cycle, laws, guidance, dead reckoning."""

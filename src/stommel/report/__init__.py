@@ -1,4 +1,4 @@
-"""The design study as one self-contained HTML file."""
+"""The design study as pictures, and as one self-contained HTML file."""
 
 from pathlib import Path
 

@@ -152,19 +152,18 @@ def _outcome(equipment, x, world, commands, t):  # type: ignore[no-untyped-def] 
 
 @inlined
 def _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick):  # type: ignore[no-untyped-def]  # compiled only
-    """Meet the water and read the sensors: RUNNING or how the mission ended, and the readings."""
+    """Meet the water and read the sensors: RUNNING or how the mission ended, the readings and the water."""
     outcome: int = _look_around(sea, loop, column, x, memory, world, log, tick)
     water = _water_here(loop, column, x, tick * loop.control_step)
-    return outcome, _sense(equipment, loop, column, x, world, water, noise, tick)
+    return outcome, _sense(equipment, loop, column, x, world, water, noise, tick), water
 
 
 @inlined
 def _obey(  # type: ignore[no-untyped-def]  # compiled only
-    equipment, sea, loop, column, x, k, trial, memory, world, noise, log, readings, commands, before, tick
+    equipment, sea, loop, column, x, k, trial, memory, world, noise, log, water, readings, commands, before, tick
 ):
     """Act, write and move by the commands; returns RUNNING or how the mission ended."""
     t = tick * loop.control_step
-    water = _water_here(loop, column, x, t)
     _note(log, memory, world, before, t, x[DEPTH])
     done = _act(equipment, sea, loop, x, world, water, commands, noise, t)
     _write(equipment, loop, column, x, memory, world, water, readings, commands, noise, log, tick)
@@ -186,7 +185,7 @@ def begin_step(
     tick: int,
 ) -> tuple[int, Readings]:
     """First half of a control step: RUNNING or how the mission ended, and what the sensors say."""
-    outcome, readings = _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick)
+    outcome, readings, _ = _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick)
     return outcome, readings
 
 
@@ -211,8 +210,9 @@ def end_step(
     `before` is the phase that the memory held before the decision.
     """
     k, trial = np.empty((4, STATE_SIZE)), np.empty(STATE_SIZE)
+    water = _water_here(loop, column, x, tick * loop.control_step)
     outcome: int = _obey(
-        equipment, sea, loop, column, x, k, trial, memory, world, noise, log, readings, commands, before, tick
+        equipment, sea, loop, column, x, k, trial, memory, world, noise, log, water, readings, commands, before, tick
     )
     return outcome
 
@@ -240,13 +240,28 @@ def fly(
     k, trial = np.empty((4, STATE_SIZE)), np.empty(STATE_SIZE)
     outcome: int = RUNNING
     for tick in range(first_tick, last_tick):
-        outcome, readings = _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick)
+        outcome, readings, water = _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick)
         if outcome != RUNNING:
             return outcome
         before = memory.phase
         commands = decision(memory, orders, readings, tick * loop.control_step)
         outcome = _obey(
-            equipment, sea, loop, column, x, k, trial, memory, world, noise, log, readings, commands, before, tick
+            equipment,
+            sea,
+            loop,
+            column,
+            x,
+            k,
+            trial,
+            memory,
+            world,
+            noise,
+            log,
+            water,
+            readings,
+            commands,
+            before,
+            tick,
         )
         if outcome != RUNNING:
             return outcome

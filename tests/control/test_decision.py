@@ -189,3 +189,15 @@ def test_loads_of_each_phase() -> None:
 def test_memory_is_plain_numbers() -> None:
     assert MEMORY.names is not None
     assert {MEMORY[name].kind for name in MEMORY.names} <= {"f", "i"}
+
+
+def test_roll_is_read_when_it_is_asked_for() -> None:
+    """Told to turn, the vehicle banks; without noise its reading is the true roll of the same moment."""
+    simulator = Simulator(made(mission_document(**SHORT, sensors=EXACT)))
+    rolls = []
+    while simulator.running:
+        rolls.append(simulator.readings.phi)
+        simulator.step(decide(simulator.memory, simulator.orders, simulator.readings, simulator.time))
+    true = column(simulator.flown(), "roll")
+    np.testing.assert_allclose(rolls, true, atol=1e-9)
+    assert np.abs(true).max() > math.radians(1.0)

@@ -1,13 +1,18 @@
 """What the vehicle's software is told by its sensors: never the truth, always what a sensor says."""
 
+import math
 from typing import NamedTuple
+
+from stommel.compilation import inlined
 
 
 class Readings(NamedTuple):
     """What the sensors say at one decision; SI units and radians."""
 
-    phi: float
-    """Roll [rad]."""
+    down_b2: float
+    """Direction down as the accelerometers feel it, along b2 to starboard."""
+    down_b3: float
+    """The same along b3, through the keel."""
     theta: float
     """Pitch [rad]."""
     psi: float
@@ -38,3 +43,14 @@ class Readings(NamedTuple):
     """[rad]"""
     fix_longitude: float
     """[rad]"""
+
+    @property
+    def phi(self) -> float:
+        """Roll [rad]; compiled code calls `roll`."""
+        return roll(self)
+
+
+@inlined
+def roll(readings: Readings) -> float:
+    """Roll [rad], starboard down; worked out when it is asked for, since the vehicle's own laws do not."""
+    return math.atan2(readings.down_b2, readings.down_b3)

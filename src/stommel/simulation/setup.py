@@ -1,7 +1,7 @@
 """Everything that a mission is flown with, made ready at its start."""
 
 from dataclasses import dataclass
-from math import radians
+from math import cos, radians
 
 import numpy as np
 from numpy.typing import NDArray
@@ -132,7 +132,8 @@ def _world_at_start(mission: Mission, latitude: float, longitude: float, heading
     world.latitude, world.longitude = latitude, longitude
     world.thermistor = world.water_before = here.temperature
     world.air_temperature = here.temperature + KELVIN
-    world.measured[:] = (radians(scenario.dives.pitch_deg), heading, 0.0, 0.0)
+    theta = radians(scenario.dives.pitch_deg)
+    world.measured[:] = (theta, heading, 0.0, 0.0, cos(theta))
     return world
 
 

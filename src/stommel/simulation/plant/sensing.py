@@ -1,6 +1,7 @@
 """What the vehicle measures of its attitude, depth, position and water, and when it hears of it (compiled)."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -8,11 +9,23 @@ from stommel.compilation import inlined
 from stommel.control.readings import Readings
 from stommel.dynamics.equations import state_from_array
 from stommel.dynamics.state import DEPTH, R_PX, V_B
-from stommel.geometry.attitude import Attitude
 from stommel.geometry.earth import metres_per_radian
 from stommel.geometry.vectors import Quaternion, Vector, add, cross, dot, down_in_body, matrix_times, scale, to_body
 from stommel.simulation.plant.sensors import Sensors
 from stommel.simulation.scenario.scenario_file import LONGEST_LATENCY
+
+
+class Felt(NamedTuple):
+    """What the compass and its accelerometers feel."""
+
+    down_b2: float
+    """Direction down along b2."""
+    down_b3: float
+    """Direction down along b3."""
+    theta: float
+    """Pitch [rad]."""
+    psi: float
+    """Heading [rad]."""
 
 
 @inlined
@@ -32,8 +45,8 @@ def disturbing_field(sensors: Sensors, plant_state: np.record) -> Vector:
 
 
 @inlined
-def compass(sensors: Sensors, plant_state: np.record, Q: Quaternion, noise: np.random.Generator) -> Attitude:
-    """Roll and pitch by the accelerometers and the tilt-compensated magnetic heading, with iron, motors and noise.
+def compass(sensors: Sensors, plant_state: np.record, Q: Quaternion, noise: np.random.Generator) -> Felt:
+    """Direction down by the accelerometers and the tilt-compensated magnetic heading, with iron, motors and noise.
 
     East is down cross field, north is east cross down; both as the sensors feel them, in the body frame.
     """
@@ -50,7 +63,7 @@ def compass(sensors: Sensors, plant_state: np.record, Q: Quaternion, noise: np.r
     north = cross(east, down)
     psi = math.atan2(east[0], north[0]) + sensors.heading_noise * noise.standard_normal()
     theta = math.atan2(-down[0], math.sqrt(down[1] * down[1] + down[2] * down[2]))
-    return Attitude(math.atan2(down[1], down[2]), theta, psi)
+    return Felt(down[1], down[2], theta, psi)
 
 
 @inlined
@@ -60,13 +73,13 @@ def depth_sensor(sensors: Sensors, depth: float, noise: np.random.Generator) -> 
 
 
 @inlined
-def late(sensors: Sensors, world: np.record, tick: int, now: Attitude, depth: float) -> tuple[Attitude, float]:
+def late(sensors: Sensors, world: np.record, tick: int, now: Felt, depth: float) -> tuple[Felt, float]:
     """Attitude and depth that reach the software at this control step: measured some steps ago."""
     row = world.measured[tick % LONGEST_LATENCY]
-    row[0], row[1], row[2], row[3] = now.theta, now.psi, depth, now.phi
+    row[0], row[1], row[2], row[3], row[4] = now.theta, now.psi, depth, now.down_b2, now.down_b3
     then = world.measured[(tick - sensors.attitude_lag) % LONGEST_LATENCY]
     pressed = world.measured[(tick - sensors.pressure_lag) % LONGEST_LATENCY]
-    return Attitude(then[3], then[0], then[1]), pressed[2]
+    return Felt(then[3], then[4], then[0], then[1]), pressed[2]
 
 
 @inlined
@@ -115,14 +128,15 @@ def sense(
 ) -> Readings:
     """What the sensors say at a control step, `bottom` being the depth of the ground [m]."""
     now = compass(sensors, world, state_from_array(x).Q, noise)
-    attitude, depth = late(sensors, world, tick, now, depth_sensor(sensors, x[DEPTH], noise))
+    felt, depth = late(sensors, world, tick, now, depth_sensor(sensors, x[DEPTH], noise))
     altitude = altimeter(sensors, bottom - x[DEPTH], noise)
     fixed = world.fixed != 0
     world.fixed = 0
     return Readings(
-        attitude.phi,
-        attitude.theta,
-        attitude.psi,
+        felt.down_b2,
+        felt.down_b3,
+        felt.theta,
+        felt.psi,
         depth,
         altitude,
         x[R_PX],

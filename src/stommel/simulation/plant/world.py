@@ -20,7 +20,7 @@ WORLD = np.dtype(
         ("leaked", "f8"), ("air_temperature", "f8"), ("internal_pressure", "f8"),
         # sensors
         ("thermistor", "f8"), ("cell_error", "f8"), ("water_before", "f8"),
-        ("measured", "f8", (LONGEST_LATENCY, 4)),
+        ("measured", "f8", (LONGEST_LATENCY, 5)),
         ("listening", "i8"), ("received", "f8"),
         ("fixed", "i8"), ("fix_time", "f8"), ("fix_latitude", "f8"), ("fix_longitude", "f8"),
         # truth to hold the software's beliefs against

@@ -6,13 +6,14 @@ import shutil
 import subprocess
 import sys
 import time
+from collections import namedtuple
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 import stommel
-from stommel.compilation import cache
+from stommel.compilation import cache, plain
 
 ROOT = Path(stommel.__file__).parent
 
@@ -136,3 +137,23 @@ def test_two_processes_never_write_one_file_of_machine_code() -> None:
     index = _Index("folder", "function", ())
     assert index._data_name(1) != index._data_name(1)
     assert index._data_name(1).endswith(".nbc")
+
+
+def test_named_tuples_that_differ_in_the_order_of_their_fields_share_no_machine_code() -> None:
+    """A function that takes one need not name its class, and Numba looks at its name and types alone."""
+    from numba import typeof
+    from numba.core.registry import cpu_target
+
+    from stommel.compilation.machine_code import MachineCode
+    from stommel.dynamics.equations import derivative
+
+    machine_code, codegen = MachineCode(plain(derivative)), cpu_target.target_context.codegen()
+    orders = [("rho", "T"), ("T", "rho")]
+    kinds = [typeof(namedtuple("Water", fields)(1.0, 2.0)) for fields in orders]  # type: ignore[misc]  # made here
+    keys = [machine_code._index_key((kind,), codegen) for kind in kinds]
+    assert keys[0][1:] != keys[1][1:]
+    inside = [
+        machine_code._index_key((typeof((kind_value, 1)),), codegen)[1:]
+        for kind_value in (namedtuple("Water", fields)(1.0, 2.0) for fields in orders)
+    ]  # type: ignore[misc]  # made here
+    assert inside[0] != inside[1]

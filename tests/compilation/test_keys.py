@@ -147,7 +147,7 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
 LOOP = "stommel.simulation.mission_loop"
 
 
-@pytest.mark.parametrize("package", ["design", "cli", "studies", "figures", "vehicle", "files"])
+@pytest.mark.parametrize("package", ["design", "report", "cli", "studies", "figures", "vehicle", "files"])
 def test_the_mission_loop_is_not_compiled_anew_after_a_change_of_what_it_does_not_call(
     copy: Path, package: str
 ) -> None:

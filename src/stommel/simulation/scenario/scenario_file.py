@@ -5,7 +5,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Finite, Positive
+from stommel.files.fields import Finite
+from stommel.files.ranges import GREATEST_SEED, between
 from stommel.mission.plan import Plan, Position
 from stommel.simulation.scenario.world_tables import (
     Ballasting,
@@ -32,13 +33,13 @@ class ScenarioFile(Plan):
     physics: Literal["paper", "full"] = "full"
     start_time: datetime
     """With its time zone."""
-    duration_days: Annotated[float, Field(strict=True, gt=0, le=730)]
+    duration_days: Annotated[float, between(0.0005, 730)]
     """The mission ends here at the latest."""
-    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    seed: Annotated[int, Field(strict=True, ge=0, le=GREATEST_SEED)] = 0
     """Of every random draw."""
-    output_every_s: Positive = 10.0
+    output_every_s: Annotated[float, between(0.05, 86400)] = 10.0
     start: Position
-    heading_deg: Finite = 0.0
+    heading_deg: Annotated[float, between(-360, 360)] = 0.0
     """At the start."""
     ballasting: Ballasting = Ballasting()
     sensors: Sensing = Sensing()

@@ -43,7 +43,7 @@ def refused(found: Outcome, *words: str) -> None:
         (("turn", "slocum", "--speed", 0.3, "--pitch", -23, "--turn-rate", 0.01), ["rudder nor by rolling"]),
         (("root-locus", "zju", "--over", "wing.colour", "--from", 0, "--to", 1), ["wing.colour", "no number"]),
         (("root-locus", "zju", "--over", "wing_position", "--from", 0, "--to", 0), ["two different"]),
-        (("root-locus", "zju", "--over", "moving_mass.mass_kg", "--from", -5, "--to", 5), ["greater than 0"]),
+        (("root-locus", "zju", "--over", "moving_mass.mass_kg", "--from", -5, "--to", 5), ["between 0.02 and 1000 kg"]),
         (("envelope", "rogue"), ["[actuators.buoyancy]"]),
         (("envelope", "zju", "--speed", 0.4), ["go together"]),
         (("derivative", "zju", "--states", "nowhere.json"), ["nowhere.json", "No such file"]),

@@ -59,13 +59,13 @@ def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[st
     ("old", "new", "words"),
     [
         ("stops_mm = { value = [-60, 560]", "stops_mm = { value = [-50, 560]", "must lie outside switches_mm"),
-        ("lead_angle_deg = { value = 3.6", "lead_angle_deg = { value = 50", "must be greater than 0 and less than 45"),
+        ("lead_angle_deg = { value = 3.6", "lead_angle_deg = { value = 50", "must be at least 0.05 and less than 45 degrees"),
         (
             "resistance_ohm = 20",
             "resistance_ohm = -20",
-            "drives.pitch.motor.resistance_ohm = -20: must be greater than 0",
+            "drives.pitch.motor.resistance_ohm = -20: must be between 0.001 and 2000 ohm",
         ),
-        ("gearbox_efficiency = { value = 0.5", "gearbox_efficiency = { value = 1.5", "at most 1"),
+        ("gearbox_efficiency = { value = 0.5", "gearbox_efficiency = { value = 1.5", "between 0.01 and 1"),
     ],
 )
 def test_bad_tables_name_key_value_and_range(

@@ -30,7 +30,7 @@ SWEEP = 'kind = "sweep"\n[[parameters]]\n'
         (SWEEP + 'key = "mission.dives.depth_m"\nvalue = [1]', ["value", "did you mean values"]),
         ('kind = "sweep"', ["[parameters] is missing"]),
         ('kind = "monte_carlo"\n' + UNIFORM, ["runs is missing"]),
-        ('kind = "monte_carlo"\nruns = -3\n' + UNIFORM, ["runs = -3", "at least 1"]),
+        ('kind = "monte_carlo"\nruns = -3\n' + UNIFORM, ["runs = -3", "between 1 and 1000000"]),
         ('kind = "sobol"\nruns = 12\n' + UNIFORM, ["runs = 12", "power of 2", "16"]),
         ('kind = "guess"\nruns = 3\n' + UNIFORM, ["kind = 'guess'", "latin_hypercube"]),
         ('kind = "monte_carlo"\nruns = 3\n' + UNIFORM.replace("uniform", "cauchy"), ["'cauchy'", "lognormal"]),

@@ -101,7 +101,7 @@ class Generated(MapTable):
 
     vehicle: str
     seed: Annotated[int, Field(strict=True, ge=0, le=GREATEST_SEED)]
-    parameters: dict[str, Number]
+    parameters: dict[str, Annotated[float, between(0, 1e20)]]
     """Constants of the engine that were used, in SI units."""
 
 

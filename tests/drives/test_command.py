@@ -59,7 +59,11 @@ def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[st
     ("old", "new", "words"),
     [
         ("stops_mm = { value = [-60, 560]", "stops_mm = { value = [-50, 560]", "must lie outside switches_mm"),
-        ("lead_angle_deg = { value = 3.6", "lead_angle_deg = { value = 50", "must be at least 0.05 and less than 45 degrees"),
+        (
+            "lead_angle_deg = { value = 3.6",
+            "lead_angle_deg = { value = 50",
+            "must be at least 0.05 and less than 45 degrees",
+        ),
         (
             "resistance_ohm = 20",
             "resistance_ohm = -20",

@@ -106,7 +106,11 @@ def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[st
     [
         ("inner_diameter_mm = { value = 210", "inner_diameter_mm = { value = 230", ["230", "less than outer_diameter"]),
         ("design_pressure_mpa = { value = 2,", "design_pressure_mpa = { value = -2,", ["design_pressure_mpa = -2"]),
-        ("weld_efficiency = { value = 1,", "weld_efficiency = { value = 1.2,", ["weld_efficiency", "between 0.1 and 1"]),
+        (
+            "weld_efficiency = { value = 1,",
+            "weld_efficiency = { value = 1.2,",
+            ["weld_efficiency", "between 0.1 and 1"],
+        ),
         ("checked_length_m = { value = 0.75", "checked_length_m = { value = 7.5", ["checked_length_m = 7.5"]),
         ("wall_mm = { value = 4.2", "wall_mm = { value = 111", ["wall_mm = 111", "less than half"]),
         ("yield_safety_factor = { value = 2", "yield_safety_factor = { value = 0.5", ["yield_safety_factor = 0.5"]),

@@ -109,7 +109,11 @@ class TestRefusals:
                 "pitch_deg = 90",
                 "specification.pitch_deg = 90: must be at least 0.1 and less than 90 degrees",
             ),
-            ("length_m = { value = 1.5", "length_m = { value = -1.5", "hull.length_m = -1.5: must be between 0.2 and 10 m"),
+            (
+                "length_m = { value = 1.5",
+                "length_m = { value = -1.5",
+                "hull.length_m = -1.5: must be between 0.2 and 10 m",
+            ),
             ("value = 210,", "value = 230,", "inner_diameter_mm = 230: must be less than outer_diameter_mm = 220"),
             ("to_m = 0.0\n", "to_m = 0.8\n", "must be aft of"),
             ("format = 1", "format = 2", "format"),

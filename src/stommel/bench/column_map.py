@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from stommel.bench.failures import BenchFileError, BenchRequestError, bench_files
 from stommel.bench.quantities import QUANTITIES
 from stommel.errors import Problem
+from stommel.files.fields import Name
 from stommel.files.opening import exists, require_regular
 from stommel.files.provenance import separate
 from stommel.files.ranges import GREATEST_SEED, between
@@ -32,9 +33,9 @@ class MapTable(BaseModel):
 class Channel(MapTable):
     """Where a quantity stands, and in which unit."""
 
-    unit: str
+    unit: Name
     """One of the units that the quantity may be written in."""
-    column: str | None = None
+    column: Name | None = None
     """Name of the column."""
     value: Number | None = None
     """Constant of the whole log, where no column holds it."""
@@ -55,7 +56,7 @@ class Channel(MapTable):
 class Columns(MapTable):
     """The quantities of an engine log."""
 
-    run: str | None = None
+    run: Name | None = None
     """Column whose text tells one run from the next; without it the file is one run."""
     time: Channel
     pressure: Channel
@@ -99,7 +100,7 @@ class Checks(MapTable):
 class Generated(MapTable):
     """How the model made this log."""
 
-    vehicle: str
+    vehicle: Name
     seed: Annotated[int, Field(strict=True, ge=0, le=GREATEST_SEED)]
     parameters: dict[str, Annotated[float, between(0, 1e20)]]
     """Constants of the engine that were used, in SI units."""
@@ -109,7 +110,7 @@ class EngineLogMap(MapTable):
     """Description of an engine log."""
 
     format: Literal[1] = 1
-    origin: str = "measured"
+    origin: Annotated[str, Field(max_length=400)] = "measured"
     """Where the log comes from, in words; repeated in every result."""
     delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
     piston_diameter_mm: Annotated[float, between(2, 500)] | None = None

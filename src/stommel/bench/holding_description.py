@@ -6,14 +6,15 @@ from pydantic import Field, model_validator
 
 from stommel.bench.column_map import MapTable
 from stommel.bench.quantities import QUANTITIES
+from stommel.files.fields import Name
 from stommel.files.ranges import Compressibility, Pressure, between
 
 
 class PressureColumn(MapTable):
     """A column of gauge pressures."""
 
-    column: str
-    unit: str
+    column: Name
+    unit: Name
 
     @model_validator(mode="after")
     def _unit_is_known(self) -> Self:
@@ -31,9 +32,9 @@ class PressureColumn(MapTable):
 class HoldingColumns(MapTable):
     """Columns of a table of holds; times are clock times hh:mm or hh:mm:ss."""
 
-    hold: str = "hold"
-    begin: str = "from"
-    end: str = "to"
+    hold: Name = "hold"
+    begin: Name = "from"
+    end: Name = "to"
     begin_pressure: PressureColumn = PressureColumn(column="from_pressure_mpa", unit="MPa")
     end_pressure: PressureColumn = PressureColumn(column="to_pressure_mpa", unit="MPa")
 
@@ -60,7 +61,7 @@ class Chamber(MapTable):
     """Relative growth of the chamber's volume per pressure."""
     water_bulk_modulus_mpa: Annotated[float, between(1800, 3000)] = 2180.0
     """Of the water at the test's temperature; fresh water at 20 deg C if left out (Kell 1975)."""
-    water_thermal_expansion_per_k: Annotated[float, between(-1e-4, 1e-3)] = 2.07e-4
+    water_thermal_expansion_per_k: Annotated[float, between(1e-6, 1e-3)] = 2.07e-4
     """Of the water at the test's temperature; fresh water at 20 deg C if left out (Kell 1975)."""
     hull_volume_l: Annotated[float, between(0.5, 20000)]
     """Displaced volume of the hull."""
@@ -95,7 +96,7 @@ class HoldingDescription(MapTable):
     """Description of a hull pressure test."""
 
     format: Literal[1] = 1
-    title: str = "Hull pressure test"
+    title: Name = "Hull pressure test"
     delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
     columns: HoldingColumns = HoldingColumns()
     limits: HoldingLimits = HoldingLimits()

@@ -11,6 +11,9 @@ Point = tuple[Coordinate, Coordinate, Coordinate]
 Row = tuple[Inertia, Inertia, Inertia]
 Matrix3 = tuple[Row, Row, Row]
 
+Name = Annotated[str, Field(min_length=1, max_length=80)]
+"""Of a part, a bay, a column, a mission; long enough to say what it is, short enough for a message."""
+
 ZERO_MATRIX: Matrix3 = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 

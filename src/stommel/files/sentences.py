@@ -30,6 +30,9 @@ _PLAIN = {
     "list_type": "must be a list",
     "literal_error": "must be {expected}",
     "string_type": "must be text",
+    "string_too_long": "must be text of at most {max_length} characters",
+    "string_too_short": "must not be empty",
+    "string_pattern_mismatch": "must begin with a letter and go on with letters, digits, - and _",
     "too_long": "must be a list of {max_length}",
     "tuple_type": "must be a list",
 }
@@ -58,7 +61,11 @@ def validated(document: Any, model: type[Model], origin: str) -> Model:
 def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[str, str]]:
     """Return (key, sentence) for each of the errors, unknown keys first: they often explain the missing ones."""
     details = sorted(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
-    found = [(dotted(detail["loc"]), sentence(detail, model)) for detail in details[:MOST_PROBLEMS]]
+    found = [
+        (dotted(detail["loc"]), line)
+        for detail in details[:MOST_PROBLEMS]
+        for line in sentence(detail, model).splitlines()
+    ]
     if len(details) > MOST_PROBLEMS:
         found.append(("", f"and {len(details) - MOST_PROBLEMS} more problems"))
     return list({words: (key, words) for key, words in found}.values())  # a short list misses several entries
@@ -78,7 +85,8 @@ def sentence(detail: ErrorDetails, model: type[BaseModel]) -> str:
     if kind == "missing":
         return _missing(detail, model)
     if kind == "value_error":
-        return f"{key + ': ' if key else ''}{detail['ctx']['error']}"
+        prefix = f"{key}: " if key else ""
+        return "\n".join(f"{prefix}{line}" for line in str(detail["ctx"]["error"]).splitlines())
     if kind in _RANGES:
         constraint, words = _RANGES[kind]
         crossed = words.format(detail["ctx"][constraint])

@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Table
+from stommel.files.fields import Name, Table
 from stommel.files.ranges import Depth, DepthOrZero, Hours, Share, Speed, Volume, ZeroOr, between
 
 Latitude = Annotated[float, between(-90, 90)]
@@ -149,7 +149,7 @@ class Plan(Table):
     """A plan, as its file describes it; a vehicle needs nothing else to fly its mission."""
 
     format: Literal[1] = 1
-    name: Annotated[str, Field(min_length=1)]
+    name: Name
     waypoints: tuple[Position, ...] = ()
     dives: Dives
     surface: Surfacing = Surfacing()

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import ConfigDict, Field, field_validator, model_validator
 
-from stommel.files.fields import Table
+from stommel.files.fields import Name, Table
 from stommel.files.ranges import GREATEST_SEED, between
 
 SWEEP, LATIN_HYPERCUBE, MONTE_CARLO, SOBOL = "sweep", "latin_hypercube", "monte_carlo", "sobol"
@@ -127,7 +127,7 @@ class StudyFile(Table):
     """A study, as its file describes it."""
 
     format: Literal[1] = 1
-    name: Annotated[str, Field(min_length=1)]
+    name: Name
     mission: Annotated[str, Field(min_length=1)]
     """Mission file beside the study file, or a shipped mission."""
     kind: Literal["sweep", "latin_hypercube", "monte_carlo", "sobol"]

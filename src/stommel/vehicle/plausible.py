@@ -4,23 +4,17 @@ Each range of a field is wide enough for any glider; these relations know the si
 vehicle that breaks one can be analysed.
 """
 
-from collections.abc import Iterator
 from math import pi, sqrt
 
 import numpy as np
 
 from stommel.vehicle.checks import rigid_body_inertia_about_origin
-from stommel.vehicle.schema import Battery, Consumer, Hull, Matrix3, Part, VehicleFile
-from stommel.vehicle.schema.drives import DcMotor, PitchMachinery, RudderMachinery
-from stommel.vehicle.schema.engine import Motor
-
-Findings = Iterator[tuple[str, str]]
-"""Pairs of a key, and what is odd about it and what would be usual."""
+from stommel.vehicle.plausible_machinery import Findings, actuator_findings, energy_findings, machinery_findings
+from stommel.vehicle.schema import Hull, Matrix3, Part, VehicleFile
+from stommel.vehicle.size import SLENDEREST, displaced_m3, longest_m
 
 LEAST_STABILITY_ARM_M = 0.003
 """Centre of mass below the centre of buoyancy; published gliders have 4 to 10 mm."""
-SLENDEREST = 25.0
-"""Length over diameter of a hull."""
 DENSEST_KG_M3 = 22600.0
 """Osmium."""
 LIGHTEST_KG_M3 = 10.0
@@ -32,24 +26,11 @@ def implausible(vehicle: VehicleFile) -> Findings:
     """Yield (key, what is odd and what would be usual) for numbers that do not fit each other."""
     yield from _bodies(vehicle)
     yield from _water(vehicle)
-    yield from _actuators(vehicle)
+    yield from actuator_findings(vehicle)
     yield from _hull(vehicle)
     yield from _parts(vehicle)
-    yield from _energy(vehicle)
-    yield from _machinery(vehicle)
-
-
-def _volume(vehicle: VehicleFile) -> float:
-    """Displaced volume [m3]."""
-    return vehicle.mass_kg / vehicle.water.density_kg_m3
-
-
-def longest_m(vehicle: VehicleFile) -> float:
-    """Length of the vehicle [m]: of its hull with nose and tail, or that of the slenderest body of its volume."""
-    hull = vehicle.hull
-    if hull is not None:
-        return hull.length_m + hull.nose_length_m + hull.tail_length_m
-    return float((4.0 / pi * _volume(vehicle) * SLENDEREST**2) ** (1.0 / 3.0))
+    yield from energy_findings(vehicle)
+    yield from machinery_findings(vehicle)
 
 
 def _bodies(vehicle: VehicleFile) -> Findings:
@@ -119,7 +100,7 @@ def _water(vehicle: VehicleFile) -> Findings:
         if value and not low * m <= value <= high * m:
             yield (
                 f"added_inertia.{name}",
-                f"added_inertia.{name} = {value:g}: usual are {low * m:.3g} to {high * m:.4g} kg for a vehicle of {m:g} kg",
+                f"added_inertia.{name} = {value:g}: a vehicle of {m:g} kg has {low * m:.3g} to {high * m:.4g}",
             )
     angle = abs(h.lift_kg_m) / h.lift_per_rad_kg_m
     if angle > 0.3:
@@ -127,20 +108,20 @@ def _water(vehicle: VehicleFile) -> Findings:
     if abs(h.pitch_moment_kg) > 0.3 * abs(h.pitch_moment_per_rad_kg) and h.pitch_moment_kg:
         yield (
             "hydrodynamics.pitch_moment_kg",
-            f"hydrodynamics.pitch_moment_kg = {h.pitch_moment_kg:g}: more than 0.3 rad of pitch_moment_per_rad_kg gives",
+            f"hydrodynamics.pitch_moment_kg = {h.pitch_moment_kg:g}: more than 0.3 rad of angle of attack gives",
         )
-    face = _volume(vehicle) ** (2.0 / 3.0) * 500.0
+    face = displaced_m3(vehicle) ** (2.0 / 3.0) * 500.0
     if not 0.005 * face <= h.drag_kg_m <= 10.0 * face:
         yield (
             "hydrodynamics.drag_kg_m",
-            f"hydrodynamics.drag_kg_m = {h.drag_kg_m:g}: usual are {0.005 * face:.2g} to {10.0 * face:.4g} for this volume",
+            f"hydrodynamics.drag_kg_m = {h.drag_kg_m:g}: this volume has {0.005 * face:.2g} to {10.0 * face:.4g}",
         )
-    for name, lever in _levers(vehicle):
-        if lever > length:
-            yield (
-                f"hydrodynamics.{name}",
-                f"hydrodynamics.{name}: acts at a lever of {lever:.3g} m; the vehicle is {length:.3g} m long",
-            )
+    lever = abs(h.pitch_moment_per_rad_kg) / h.lift_per_rad_kg_m
+    if lever > length:
+        yield (
+            "hydrodynamics.pitch_moment_per_rad_kg",
+            f"hydrodynamics.pitch_moment_per_rad_kg: acts {lever:.3g} m away; the vehicle is {length:.3g} m long",
+        )
     for name in ("pitch_damping_kg_s", "roll_damping_kg_s", "yaw_damping_kg_s"):
         value = abs(getattr(h, name) or 0.0)
         if value > 10.0 * m * length**2:
@@ -153,77 +134,13 @@ def _water(vehicle: VehicleFile) -> Findings:
         if share > h.side_force_per_rad_kg_m:
             yield (
                 "rudder.side_force_per_rad_kg_m",
-                f"rudder.side_force_per_rad_kg_m = {share:g}: more than the whole vehicle's, {h.side_force_per_rad_kg_m:g}",
+                f"rudder.side_force_per_rad_kg_m = {share:g}: the whole vehicle has {h.side_force_per_rad_kg_m:g}",
             )
     if vehicle.wing is not None and vehicle.wing.lift_per_rad_kg_m > h.lift_per_rad_kg_m:
         yield (
             "wing.lift_per_rad_kg_m",
             f"wing.lift_per_rad_kg_m: more than the whole vehicle's, {h.lift_per_rad_kg_m:g}",
         )
-
-
-def _levers(vehicle: VehicleFile) -> Iterator[tuple[str, float]]:
-    """Moment over force for an angle [m], where both are known."""
-    h = vehicle.hydrodynamics
-    yield "pitch_moment_per_rad_kg", abs(h.pitch_moment_per_rad_kg) / h.lift_per_rad_kg_m
-
-
-def _actuators(vehicle: VehicleFile) -> Findings:
-    a, drives, length = vehicle.actuators, vehicle.drives, longest_m(vehicle)
-    if a.buoyancy is not None:
-        yield from _engine_volume(vehicle)
-    if a.moving_mass is not None:
-        low, high = a.moving_mass.travel_m
-        if high - low > length:
-            yield (
-                "actuators.moving_mass.travel_mm",
-                f"actuators.moving_mass.travel_mm: {1e3 * (high - low):g} mm, more than the vehicle is long",
-            )
-        if high - low < 0.002 * length:
-            yield (
-                "actuators.moving_mass.travel_mm",
-                f"actuators.moving_mass.travel_mm: {1e3 * (high - low):g} mm hardly trims a vehicle of {length:.3g} m",
-            )
-        if drives is not None and drives.pitch is not None:
-            yield from _switches(a.moving_mass.travel_mm, drives.pitch)
-
-
-def _engine_volume(vehicle: VehicleFile) -> Findings:
-    engine = vehicle.actuators.buoyancy
-    assert engine is not None
-    key, (low, high) = "actuators.buoyancy.volume_ml", engine.volume_ml
-    share = (high - low) / 1e6 / _volume(vehicle)
-    if not 5e-4 <= share <= 0.2:
-        yield key, f"{key}: {high - low:g} ml are {100 * share:.2g} % of the vehicle; usual are 0.3 to 5 %"
-    if low >= 0.0 or high <= 0.0 or min(-low, high) < 0.05 * max(-low, high):
-        yield key, f"{key} = [{low:g}, {high:g}]: hardly {'sinks' if -low < high else 'rises'} from neutral"
-    if engine.flow_ml_s is not None and not 1.0 <= (high - low) / engine.flow_ml_s <= 86400.0:
-        yield (
-            "actuators.buoyancy.flow_ml_s",
-            f"actuators.buoyancy.flow_ml_s = {engine.flow_ml_s:g}: moves the whole {high - low:g} ml in "
-            f"{(high - low) / engine.flow_ml_s:.2g} s",
-        )
-    spec = vehicle.specification
-    if spec is not None and not 0.5 <= (high - low) / spec.oil_volume_ml <= 3.0:
-        yield (
-            key,
-            f"{key}: {high - low:g} ml from end to end; specification.oil_volume_ml = {spec.oil_volume_ml:g}",
-        )
-    circuit = vehicle.engine
-    if circuit is not None:
-        has = circuit.measured_piston.working_volume_ml
-        if abs(has - (high - low)) > 0.05 * (high - low):
-            yield key, f"{key}: {high - low:g} ml from end to end; the piston of [engine] moves {has:.4g} ml"
-
-
-def _switches(travel: tuple[float, float], drive: PitchMachinery) -> Findings:
-    key, reach = "drives.pitch.switches_mm", travel[1] - travel[0]
-    ends = (("aft", drive.switches_mm[0] - travel[0]), ("forward", travel[1] - drive.switches_mm[1]))
-    for end, inside in ends:
-        if inside > 0.0:
-            yield key, f"{key}: the {end} switch opens {inside:g} mm inside the travel of actuators.moving_mass"
-        elif -inside > 0.05 * reach:
-            yield key, f"{key}: the {end} switch opens {-inside:g} mm outside the travel of actuators.moving_mass"
 
 
 def _hull(vehicle: VehicleFile) -> Findings:
@@ -254,10 +171,10 @@ def _hull_size(vehicle: VehicleFile, hull: Hull) -> Findings:
     slenderness = hull.length_m / (hull.outer_diameter_mm / 1e3)
     if not 0.5 <= slenderness <= SLENDEREST:
         yield "hull.length_m", f"hull.length_m = {hull.length_m:g}: {slenderness:.3g} diameters; usual are 4 to 12"
-    if not 0.3 <= hull.volume_m3 / _volume(vehicle) <= 3.0:
+    if not 0.3 <= hull.volume_m3 / displaced_m3(vehicle) <= 3.0:
         yield (
             "hull.length_m",
-            f"the hull has {1e3 * hull.volume_m3:.4g} l; the vehicle displaces {1e3 * _volume(vehicle):.4g} l",
+            f"the hull has {1e3 * hull.volume_m3:.4g} l; the vehicle displaces {1e3 * displaced_m3(vehicle):.4g} l",
         )
     if hull.inner_diameter_mm is not None and hull.inner_diameter_mm < 0.5 * hull.outer_diameter_mm:
         yield "hull.inner_diameter_mm", f"hull.inner_diameter_mm = {hull.inner_diameter_mm:g}: less than half the outer"
@@ -265,7 +182,7 @@ def _hull_size(vehicle: VehicleFile, hull: Hull) -> Findings:
     if spec is not None and abs(overall - spec.overall_length_m) > 0.2 * spec.overall_length_m:
         yield (
             "specification.overall_length_m",
-            f"hull with nose and tail is {overall:.3g} m long; specification.overall_length_m = {spec.overall_length_m:g}",
+            f"hull with nose and tail is {overall:.3g} m long; {spec.overall_length_m:g} m are specified",
         )
 
 
@@ -275,7 +192,7 @@ def _parts(vehicle: VehicleFile) -> Findings:
         key = f"parts.{k}"
         if part.mass_kg > vehicle.mass_kg:
             yield f"{key}.mass_kg", f"{key}.mass_kg = {part.mass_kg:g}: {part.name!r} is heavier than the whole vehicle"
-        if part.volume_m3 > _volume(vehicle):
+        if part.volume_m3 > displaced_m3(vehicle):
             yield (
                 f"{key}.volume_ml",
                 f"{key}.volume_ml = {part.volume_ml:g}: {part.name!r} displaces more than the vehicle",
@@ -300,124 +217,3 @@ def part_volume_m3(part: Part) -> float | None:
     if part.length_mm is None or part.diameter_mm is None:
         return None
     return pi / 4.0 * (part.diameter_mm**2 - part.inner_diameter_mm**2) * part.length_mm / 1e9
-
-
-def _energy(vehicle: VehicleFile) -> Findings:
-    battery, plan = vehicle.battery, vehicle.energy
-    for k, consumer in enumerate(vehicle.consumers):
-        key = f"consumers.{k}"
-        if consumer.standby_w > consumer.power_w:
-            yield (
-                f"{key}.standby_w",
-                f"{key}.standby_w = {consumer.standby_w:g}: {consumer.name!r} takes more in standby than "
-                f"power_w = {consumer.power_w:g}",
-            )
-        session = plan.surface_session_s if plan is not None else None
-        if session is not None and (consumer.seconds_per_surfacing or 0.0) > session:
-            yield (
-                f"{key}.seconds_per_surfacing",
-                f"{key}.seconds_per_surfacing = {consumer.seconds_per_surfacing:g}: energy.surface_session_s = {session:g}",
-            )
-        if consumer.sample_every_s is not None and consumer.sample_every_s > 3600.0:
-            yield (
-                f"{key}.sample_every_s",
-                f"{key}.sample_every_s = {consumer.sample_every_s:g}: {consumer.name!r} samples less than once an hour",
-            )
-        if battery is not None:
-            yield from _thirsty(key, consumer, battery)
-    if battery is not None and battery.internal_resistance_ohm * battery.capacity_ah > battery.voltage_v:
-        yield (
-            "battery.internal_resistance_ohm",
-            f"battery.internal_resistance_ohm = {battery.internal_resistance_ohm:g}: the discharge of an hour, "
-            f"{battery.capacity_ah:g} A, would take all of the {battery.voltage_v:g} V",
-        )
-
-
-def _thirsty(key: str, consumer: Consumer, battery: Battery) -> Findings:
-    """A consumer that alone empties the battery within a day."""
-    stored_wh = battery.capacity_ah * battery.voltage_v
-    always = consumer.power_w * consumer.share_on
-    if consumer.on in ("always", "underwater", "dive", "climb", "moving") and always * 24.0 > stored_wh:
-        yield (
-            f"{key}.power_w",
-            f"{key}.power_w = {consumer.power_w:g}: {consumer.name!r} alone empties the battery in "
-            f"{stored_wh / always:.2g} h",
-        )
-    if consumer.on == "surface" and consumer.power_w > stored_wh:
-        yield (
-            f"{key}.power_w",
-            f"{key}.power_w = {consumer.power_w:g}: {consumer.name!r} empties the battery in an hour",
-        )
-
-
-def _machinery(vehicle: VehicleFile) -> Findings:
-    drives, a = vehicle.drives, vehicle.actuators
-    supply = vehicle.battery.voltage_v if vehicle.battery is not None else None
-    if drives is not None and drives.pitch is not None:
-        drive = drives.pitch
-        yield from _motor("drives.pitch.motor", drive.motor, supply or drive.motor.nominal_voltage_v)
-        ratio = drive.gearbox_ratio * (drive.worm.ratio if drive.worm is not None else 1.0)
-        runs = _no_load(drive.motor, supply) / ratio / (2.0 * pi) * drive.screw.lead_mm
-        stated = a.moving_mass.speed_mm_s if a.moving_mass is not None else None
-        yield from _speed("actuators.moving_mass.speed_mm_s", stated, runs, "mm/s")
-    if drives is not None and drives.rudder is not None:
-        yield from _rudder_drive(vehicle, drives.rudder, supply)
-    if vehicle.engine is not None:
-        for k, motor in enumerate(vehicle.engine.motors):
-            yield from _motor(f"engine.motors.{k}", motor, motor.supply_voltage_v)
-
-
-def _rudder_drive(vehicle: VehicleFile, drive: RudderMachinery, supply: float | None) -> Findings:
-    motor, rudder = drive.motor, vehicle.actuators.rudder
-    yield from _motor("drives.rudder.motor", motor, supply or motor.nominal_voltage_v)
-    runs = _no_load(motor, supply) / drive.gearbox_ratio * 180.0 / pi
-    yield from _speed("actuators.rudder.speed_deg_s", rudder.speed_deg_s if rudder is not None else None, runs, "deg/s")
-    stall = motor.torque_constant_mn_m_a * (supply or motor.nominal_voltage_v) / motor.resistance_ohm
-    if drive.brake is not None and not 0.01 <= drive.brake.holding_torque_mn_m / stall <= 30.0:
-        yield (
-            "drives.rudder.brake.holding_torque_mn_m",
-            f"drives.rudder.brake.holding_torque_mn_m = {drive.brake.holding_torque_mn_m:g}: the motor's greatest torque "
-            f"is {stall:.3g} mN m",
-        )
-    if drive.seal_friction_mn_m > stall * drive.gearbox_ratio:
-        yield (
-            "drives.rudder.seal_friction_mn_m",
-            f"drives.rudder.seal_friction_mn_m = {drive.seal_friction_mn_m:g}: more than motor and gearbox overcome",
-        )
-
-
-def _no_load(motor: DcMotor, supply: float | None) -> float:
-    """Speed of a motor without load [rad/s]."""
-    return (supply or motor.nominal_voltage_v) / (motor.torque_constant_mn_m_a / 1e3)
-
-
-def _speed(key: str, stated: float | None, runs: float, unit: str) -> Findings:
-    if stated is not None and not 0.3 <= stated / runs <= 1.2:
-        yield key, f"{key} = {stated:g}: the drive runs {runs:.3g} {unit} without load"
-
-
-def _motor(key: str, motor: DcMotor | Motor, supply: float) -> Findings:
-    """A motor that cannot turn, or answers slower or faster than motors do."""
-    k, stall = motor.torque_constant_mn_m_a / 1e3, supply / motor.resistance_ohm
-    if motor.no_load_current_a > 0.3 * stall:
-        yield (
-            f"{key}.no_load_current_a",
-            f"{key}.no_load_current_a = {motor.no_load_current_a:g}: {supply:g} V drive at most {stall:.3g} A",
-        )
-    constant = motor.rotor_inertia_g_cm2 / 1e7 * motor.resistance_ohm / k**2
-    if not 2e-4 <= constant <= 0.5:
-        yield (
-            f"{key}.rotor_inertia_g_cm2",
-            f"{key}: rotor, resistance and torque constant give a time constant of {constant:.2g} s; usual are 2 to 50 ms",
-        )
-    if isinstance(motor, DcMotor):
-        if motor.continuous_current_a > 5.0 * stall:
-            yield (
-                f"{key}.continuous_current_a",
-                f"{key}.continuous_current_a = {motor.continuous_current_a:g}: {supply:g} V drive at most {stall:.3g} A",
-            )
-        if not 0.2 <= motor.nominal_voltage_v / supply <= 5.0:
-            yield (
-                f"{key}.nominal_voltage_v",
-                f"{key}.nominal_voltage_v = {motor.nominal_voltage_v:g}: fed by {supply:g} V",
-            )

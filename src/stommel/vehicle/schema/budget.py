@@ -4,9 +4,9 @@ from collections.abc import Iterator, Sequence
 from math import hypot
 from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from stommel.files.fields import Point, Table
+from stommel.files.fields import Name, Point, Table
 from stommel.files.ranges import PartSize, ZeroOr
 from stommel.vehicle.schema.hull import Bay, Hull
 
@@ -17,9 +17,9 @@ TOLERANCE_M = 1e-6
 class Part(Table):
     """One entry of the mass and volume budget. Without dimensions it is a point."""
 
-    name: Annotated[str, Field(min_length=1)]
+    name: Name
     """What it is; no two parts share a name."""
-    bay: str
+    bay: Name
     """Name of the bay that it belongs to."""
     mass_kg: Annotated[float, ZeroOr(0.001, 1000)]
     """Mass."""

@@ -5,7 +5,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Table
+from stommel.files.fields import Name, Table
 from stommel.files.ranges import (
     DepthOrZero,
     Efficiency,
@@ -28,7 +28,7 @@ class Battery(Table):
     capacity_ah: Annotated[float, between(0.1, 5000)]
     voltage_v: Voltage
     """Mean voltage over the discharge, by which the charge becomes energy."""
-    chemistry: str
+    chemistry: Name
     internal_resistance_ohm: Annotated[float, between(0, 50)] = 0.0
     """Of cells, wires and fuse together: by it the voltage falls under load."""
     usable_fraction: PositiveShare | None = None
@@ -95,7 +95,7 @@ class EnergyPlan(Table):
 class Consumer(Table):
     """Something that takes electrical power, and when."""
 
-    name: Annotated[str, Field(min_length=1)]
+    name: Name
     part: Literal["controller", "sensors", "navigation", "communication", "hotel"]
     """What it is counted with."""
     power_w: Power

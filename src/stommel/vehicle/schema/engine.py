@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Table, ordered
+from stommel.files.fields import Name, Table, ordered
 from stommel.files.ranges import (
     Current,
     Efficiency,
@@ -38,7 +38,7 @@ class CircuitPart(Table):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({})
 
-    name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")]
+    name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=40)]
     """Name of the part in `connections`."""
 
 
@@ -219,7 +219,7 @@ class Bladder(CircuitPart):
 class DisplacementSensor(Table):
     """Sensor that measures a piston's position and tells the controller when to stop."""
 
-    measures: str
+    measures: Name
     """Name of the reservoir or cylinder."""
     resolution_mm: Annotated[float, between(0.0001, 10)]
     """Least step of its reading."""
@@ -239,14 +239,14 @@ class EnginePhase(Table):
 
     motor_speed_rpm: Annotated[float, between(-50000, 50000)] = 0.0
     """Speed of the motor; negative turns backwards; zero leaves it locked."""
-    open_valves: tuple[str, ...] = ()
+    open_valves: tuple[Name, ...] = ()
     """Solenoid valves that are open."""
 
 
 class Engine(Table):
     """Hydraulic circuit of the buoyancy engine."""
 
-    connections: tuple[tuple[str, ...], ...]
+    connections: tuple[tuple[Name, ...], ...]
     """Ports that share a node: `["pump.outlet", "check.inlet"]`."""
     oil: Oil
     sensor: DisplacementSensor
@@ -283,7 +283,7 @@ class Engine(Table):
     def _circuit_is_possible(self) -> Self:
         wrong = list(_circuit_problems(self))
         if wrong:
-            raise ValueError("; ".join(wrong))
+            raise ValueError("\n".join(wrong))
         return self
 
 

@@ -5,7 +5,7 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
-from stommel.files.fields import Table
+from stommel.files.fields import Name, Table
 from stommel.files.ranges import (
     BodyLength,
     Compressibility,
@@ -47,7 +47,7 @@ class Hull(Table):
     """What extends aft of the sealed hull: wet tail, bladder, rudder."""
     nose_length_m: End = 0.0
     """What extends forward of the sealed hull: wet nose with sensors."""
-    material: str | None = None
+    material: Name | None = None
     wall_mm: Wall | None = None
     depth_rating_m: Depth | None = None
     design_pressure_mpa: Pressure | None = None
@@ -101,7 +101,7 @@ class Hull(Table):
 class Bay(Table):
     """A section of the vehicle (Fig. 6 of the paper)."""
 
-    name: str
+    name: Name
     from_m: Coordinate
     """Forward end, forward of the centre of buoyancy."""
     to_m: Coordinate

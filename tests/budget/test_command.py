@@ -96,7 +96,7 @@ def test_bad_parts_are_refused(stommel: Command, tmp_path: Path, old: str, new: 
         (("budget", "zju", "--density", "1:2:3"), ["--density = '1:2:3'"]),
         (("budget", "zju", "--density", "1027:1010"), ["1027:1010"]),
         (("budget", "zju", "--density", "5"), ["at least 900"]),
-        (("budget", "zju", "--foam-density", "0"), ["foam density = 0"]),
+        (("budget", "zju", "--foam-density", "0"), ["--foam-density = 0: must be between 10 and 950 kg/m3"]),
     ],
 )
 def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[str]) -> None:

@@ -41,9 +41,9 @@ def test_terminal_fits_80_columns(stommel: Command) -> None:
     ("arguments", "words"),
     [
         (("drives", "rogue"), ["rogue.toml", "[drives.pitch]"]),
-        (("drives", "zju", "--steepest", 0), ["steepest pitch = 0 deg", "greater than 0"]),
-        (("drives", "zju", "--speed", -1), ["speed = -1 m/s"]),
-        (("drives", "zju", "--hold", -1), ["hold = -1 s"]),
+        (("drives", "zju", "--steepest", 0), ["--steepest = 0: must be between 0.1 and 90 deg"]),
+        (("drives", "zju", "--speed", -1), ["--speed = -1: must be between 0.005 and 5 m/s"]),
+        (("drives", "zju", "--hold", -1), ["--hold = -1: must be between 0 and 10000 s"]),
     ],
 )
 def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[str]) -> None:

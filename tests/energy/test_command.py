@@ -66,13 +66,13 @@ def refused(found: Outcome, *words: str) -> None:
     ("arguments", "words"),
     [
         (("zju", "--depth", 250), ["depth = 250 m", "hull.depth_rating_m = 200 m"]),
-        (("zju", "--depth", 0), ["depth = 0 m", "greater than 0"]),
-        (("zju", "--depth", "nan"), ["depth = nan m"]),
+        (("zju", "--depth", 0), ["--depth = 0: must be between 0.5 and 12000 m"]),
+        (("zju", "--depth", "nan"), ["--depth = nan: must be between 0.5 and 12000 m"]),
         (("zju", "--speed", 2), ["not reachable", "nearest reachable"]),
         (("zju", "--speed", 0.4, "--pitch", -60), ["moving mass", "nearest reachable"]),
         (("zju", "--pitch", 35), ["pitch = 35 deg", "between -90 and 0"]),
-        (("zju", "--speed", -1), ["speed = -1 m/s", "greater than 0"]),
-        (("zju", "--temperature", 90), ["temperature = 90 deg C", "-3 to 45"]),
+        (("zju", "--speed", -1), ["--speed = -1: must be between 0.005 and 5 m/s"]),
+        (("zju", "--temperature", 90), ["--temperature = 90: must be between -3 and 45 deg C"]),
         (
             ("slocum",),
             ["slocum.toml: [battery] is missing", "[energy] is missing", "[[consumers]] is missing", "power_w"],

@@ -22,7 +22,7 @@ def refusal(old: str, new: str, text: str = ZJU) -> str:
         engine_from_text(text.replace(old, new, 1), "my.toml")
     message = str(caught.value)
     assert message.startswith("my.toml: ")
-    assert len(message.splitlines()) == 1
+    assert all(line.startswith("my.toml: ") for line in message.splitlines())
     return message
 
 

@@ -66,7 +66,7 @@ def test_refused_with_one_line(folder: Path, write: Write, text: str, words: lis
 def test_refused_by_the_command(folder: Path, write: Write) -> None:
     study = write('kind = "monte_carlo"\nruns = 3\n' + UNIFORM)
     assert "must end with .nc or .zarr" in refused(folder, study, "--output", "result.csv")
-    assert "--workers 0: must be at least 1" in refused(folder, study, "--workers", 0)
+    assert "--workers = 0: must be between 1 and 1024" in refused(folder, study, "--workers", 0)
     assert "missing.toml: cannot be read: No such file" in refused(folder, "missing.toml")
     nobody = refused(folder, study, "--scheduler", "nonsense://1")
     assert "--scheduler nonsense://1: must look like tcp://host:8786" in nobody

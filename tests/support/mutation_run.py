@@ -80,7 +80,7 @@ def run_file(shipped: Shipped, share: float, seconds: float, tally: Tally, seed:
             (folder / path).write_bytes(content)
         document = tomllib.loads(shipped.text)
         (folder / shipped.name).write_text(shipped.text, encoding="utf-8")
-        usual = [_warnings(_run(folder, verb, seconds)[0]) for verb in shipped.verbs]
+        usual = [_warnings(run_timed(folder, verb, seconds)[0]) for verb in shipped.verbs]
         for mutation in mutations(document):
             if chance.random() >= share:
                 continue
@@ -95,7 +95,7 @@ def _run_one(
     spoken = False
     for k, verb in enumerate(shipped.verbs):
         tally.runs += 1
-        found, trouble, took = _run(folder, verb, seconds)
+        found, trouble, took = run_timed(folder, verb, seconds)
         where = f"{named}: {' '.join(map(str, verb[:2]))}"
         if took > seconds:
             tally.slow.append(f"{where}: {took:.1f} s")
@@ -110,7 +110,7 @@ def _run_one(
             spoken = True
             if k == 0:
                 break  # the file itself is refused
-        elif not _finite(found.out):
+        elif not finite_answer(found.out):
             tally.not_finite.append(where)
     if counts(mutation):
         tally.scaled[mutation.kind] += 1
@@ -118,7 +118,7 @@ def _run_one(
             tally.silent[mutation.kind].append(f"{shipped.name} {mutation.key} = {mutation.value}")
 
 
-def _run(folder: Path, verb: tuple[object, ...], seconds: float) -> tuple[Any, str, float]:
+def run_timed(folder: Path, verb: tuple[object, ...], seconds: float) -> tuple[Any, str, float]:
     """Outcome, what went wrong, and the time it took."""
     began = time.perf_counter()
     signal.setitimer(signal.ITIMER_REAL, 3.0 * seconds)
@@ -158,7 +158,9 @@ def _named(answer: Any) -> Iterator[str]:
             yield from _named(value)
 
 
-def _finite(text: str) -> bool:
+def finite_answer(text: str) -> bool:
+    """Whether a text is JSON without NaN and infinity."""
+
     def refuse(name: str) -> float:
         raise ValueError(name)
 
@@ -178,7 +180,8 @@ def _numbers(answer: Any) -> Iterator[float]:
         yield float(answer)
 
 
-def _stop(_signal: int, _frame: FrameType | None) -> None:
+def stop(_signal: int, _frame: FrameType | None) -> None:
+    """End a run that went beyond its time."""
     raise TooLongError
 
 
@@ -189,7 +192,7 @@ def main() -> None:
     parser.add_argument("--share", type=float, default=1.0, help="of the mutations, drawn by a fixed seed")
     parser.add_argument("--seconds", type=float, default=10.0, help="limit of a run")
     asked = parser.parse_args()
-    signal.signal(signal.SIGALRM, _stop)
+    signal.signal(signal.SIGALRM, stop)
     tally = Tally()
     for shipped in SHIPPED:
         if asked.kind in (None, shipped.kind):

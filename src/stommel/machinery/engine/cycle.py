@@ -28,7 +28,7 @@ from stommel.vehicle.schema import Engine
 PATIENCE_S = 20.0
 LEAST_PROGRESS = 1e-3
 """A phase that moves less than this share of its oil in `PATIENCE_S` is given up: no flow."""
-LONGEST_HOLD_S = 86400.0
+SHORTEST_HOLD_S, LONGEST_HOLD_S = 1e-3, 86400.0
 GREATEST_PA = 2e8
 """Beyond any sea."""
 FASTEST_RPM = 50000.0
@@ -62,7 +62,7 @@ def simulate(
     inflate_m3, deflate_m3
         Oil to move [m3]; zero leaves the phase out. Without an inflation the bladder begins full.
     hold_s
-        Pause after the inflation, with everything switched off [s].
+        Pause after the inflation, with everything switched off [s]; less than a millisecond is none.
     motor_speed_rpm
         Speed of the inflating motor instead of the file's [r/min].
     ideal
@@ -91,7 +91,7 @@ def simulate(
     cycle = _Cycle(engine, pressure_pa, full=inflate_m3 == 0.0)
     if inflate_m3 > 0.0:
         cycle.run("inflate", speed, inflate_m3)
-    if hold_s > 0.0:
+    if hold_s >= SHORTEST_HOLD_S:
         cycle.hold(hold_s)
     if deflate_m3 > 0.0 and not cycle.stalled:
         cycle.run("deflate", abs(engine.deflate.motor_speed_rpm), -deflate_m3)

@@ -68,7 +68,8 @@ def counts(mutation: Mutation) -> bool:
     """Whether a scaled number is one of which a warning is asked: not zero, and over a thousand only of sizes."""
     if mutation.kind == "x1000":
         return bool(mutation.value) and unit_of(mutation.key) is not None
-    return mutation.kind == "/1000" and bool(mutation.value) and unit_of(mutation.key) in SIZES
+    size = unit_of(mutation.key) in SIZES and "moment" not in mutation.key
+    return mutation.kind == "/1000" and bool(mutation.value) and size
 
 
 def run_file(shipped: Shipped, share: float, seconds: float, tally: Tally, seed: int = 0) -> None:

@@ -87,3 +87,26 @@ def _folder(package: str, name: str) -> list[Path]:
 
 
 SHIPPED = _all()
+
+COLUMN_MAP = """
+format = 1
+origin = "measured"
+delimiter = ","
+piston_diameter_mm = 50
+
+[columns]
+run = "run"
+time = { column = "time_s", unit = "s" }
+pressure = { column = "pressure_mpa", unit = "MPa", range = [-0.1, 10.0] }
+motor_speed = { column = "motor_speed_rpm", unit = "r/min", setting = true }
+voltage = { value = 24, unit = "V" }
+current = { column = "current_a", unit = "A" }
+piston_travel = { column = "piston_travel_mm", unit = "mm" }
+
+[checks]
+longest_gap = 3.0
+stuck_rows = 10
+saturated_rows = 3
+fewest_rows = 20
+"""
+"""A column map of an engine log; it is no shipped file, and every key of one stands in it."""

@@ -15,6 +15,8 @@ from stommel.vehicle.size import SLENDEREST, displaced_m3, longest_m
 
 LEAST_STABILITY_ARM_M = 0.003
 """Centre of mass below the centre of buoyancy; published gliders have 4 to 10 mm."""
+MOST_OFF_LEVEL = 0.005
+"""Centre of mass forward of the centre of buoyancy at neutral, over the length; shipped vehicles have none."""
 DENSEST_KG_M3 = 22600.0
 """Osmium."""
 LIGHTEST_KG_M3 = 10.0
@@ -54,6 +56,14 @@ def _bodies(vehicle: VehicleFile) -> Findings:
             "rigid_body.centre_of_mass_m.2",
             f"the centre of mass lies {arm * 1e3:.2g} mm below the centre of buoyancy; it rights the vehicle from "
             f"{LEAST_STABILITY_ARM_M * 1e3:g} mm on",
+        )
+    level = body.mass_kg * body.centre_of_mass_m[0] + mover.mass_kg * mover.neutral_position_m
+    forward = (level + ballast.mass_kg * ballast.position_m[0]) / m
+    if abs(forward) > MOST_OFF_LEVEL * length:
+        yield (
+            "moving_mass.neutral_position_m",
+            f"with the moving mass at moving_mass.neutral_position_m the centre of mass lies {forward * 1e3:.3g} mm "
+            "forward of the centre of buoyancy: the vehicle does not rest level",
         )
     for key, share in (("moving_mass.mass_kg", mover.mass_kg / m), ("ballast.mass_kg", ballast.mass_kg / m)):
         if share > 0.6:
@@ -135,6 +145,14 @@ def _water(vehicle: VehicleFile) -> Findings:
             yield (
                 "rudder.side_force_per_rad_kg_m",
                 f"rudder.side_force_per_rad_kg_m = {share:g}: the whole vehicle has {h.side_force_per_rad_kg_m:g}",
+            )
+    for name, surface in (("wing", vehicle.wing), ("rudder", vehicle.rudder)):
+        moved = surface.aerodynamic_centre_aft_m - surface.reference_aft_m if surface is not None else 0.0
+        if abs(moved) > 0.1 * length:
+            yield (
+                f"{name}.reference_aft_m",
+                f"{name}.aerodynamic_centre_aft_m lies {1e3 * moved:.3g} mm aft of {name}.reference_aft_m, for which "
+                "the coefficients were found: too far to add up",
             )
     if vehicle.wing is not None and vehicle.wing.lift_per_rad_kg_m > h.lift_per_rad_kg_m:
         yield (

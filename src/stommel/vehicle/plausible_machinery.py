@@ -24,6 +24,13 @@ def actuator_findings(vehicle: VehicleFile) -> Findings:
                 "actuators.moving_mass.travel_mm",
                 f"actuators.moving_mass.travel_mm: {1e3 * (high - low):g} mm, more than the vehicle is long",
             )
+        neutral = vehicle.moving_mass.neutral_position_m
+        if min(neutral - low, high - neutral) < 0.15 * (high - low):
+            yield (
+                "moving_mass.neutral_position_m",
+                f"moving_mass.neutral_position_m = {neutral:g}: near an end of actuators.moving_mass.travel_mm, which "
+                "hardly trims both ways",
+            )
         if high - low < 0.002 * length:
             yield (
                 "actuators.moving_mass.travel_mm",

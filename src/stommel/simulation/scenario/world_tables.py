@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Finite, Table
+from stommel.files.fields import Finite, Name, Table
 from stommel.files.ranges import DepthOrZero, Seconds, Share, between
 
 FieldPart = Annotated[float, between(-5, 5)]
@@ -125,7 +125,7 @@ Policy = Literal["error", "hold", "climatology"]
 class OceanChoice(Table):
     """The water to fly in."""
 
-    name: str | None = None
+    name: Name | None = None
     """An analytic ocean; see `stommel ocean`."""
     file: str | tuple[str, ...] | None = None
     """A CF NetCDF file instead, several, or a pattern; or a profile (.csv) that stands everywhere."""

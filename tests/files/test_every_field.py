@@ -80,23 +80,32 @@ def firsts(shipped: Shipped) -> Iterator[Mutation]:
                 yield mutation
 
 
+def refusal(shipped: Shipped, mutation: Mutation) -> StommelError | None:
+    """How a mutated file is refused; None if it is read."""
+    try:
+        READERS[shipped.kind](mutation.document, shipped.name)
+    except StommelError as error:
+        return error
+    return None
+
+
 @pytest.mark.parametrize("shipped", FILES, ids=lambda one: one.name)
 def test_every_field_is_read_or_refused_in_short_lines(shipped: Shipped) -> None:
     READERS[shipped.kind](tomllib.loads(shipped.text), shipped.name)
     for mutation in firsts(shipped):
         began = time.process_time()
-        try:
-            READERS[shipped.kind](mutation.document, shipped.name)
-        except StommelError as error:
-            lines = str(error).splitlines()
-            assert max(map(len, lines)) <= LONGEST_LINE, (mutation.key, mutation.kind, lines)
-            assert "alue error" not in str(error), (mutation.key, mutation.kind, lines)
-            if isinstance(error, FileError) and not mutation.key.startswith("changes"):
-                assert all(line.startswith(f"{shipped.name}: ") for line in lines), lines
-            if mutation.kind in NAMED:
-                name = next(part for part in reversed(mutation.key.split(".")) if not part.isdigit())
-                assert name in str(error), (mutation.key, mutation.kind, lines)
+        error = refusal(shipped, mutation)
         assert time.process_time() - began < SLOWEST_S, (mutation.key, mutation.kind)
+        if error is None:
+            continue
+        lines = str(error).splitlines()
+        assert max(map(len, lines)) <= LONGEST_LINE, (mutation.key, mutation.kind, lines)
+        assert "alue error" not in str(error), (mutation.key, mutation.kind, lines)
+        if isinstance(error, FileError) and not mutation.key.startswith("changes"):
+            assert all(line.startswith(f"{shipped.name}: ") for line in lines), lines
+        if mutation.kind in NAMED:
+            name = next(part for part in reversed(mutation.key.split(".")) if not part.isdigit())
+            assert name in str(error), (mutation.key, mutation.kind, lines)
 
 
 @pytest.mark.parametrize("kind", ["1e30", "1e308", "nan", "text"])
@@ -107,11 +116,8 @@ def test_no_number_may_be_anything(shipped: Shipped, kind: str) -> None:
     for mutation in firsts(shipped):
         if mutation.kind != kind or mutation.key == "format" or isinstance(mutation.value, bool):
             continue
-        try:
-            READERS[shipped.kind](mutation.document, shipped.name)
-        except StommelError:
-            continue
-        read.append(mutation.key)
+        if refusal(shipped, mutation) is None:
+            read.append(mutation.key)
     assert read == []
 
 
@@ -138,7 +144,7 @@ def test_a_drawn_share_through_the_verbs() -> None:
     """What is read is answered with finite numbers or a refusal; nothing ends as a defect."""
     shipped = next(one for one in SHIPPED if one.name == "zju.toml")
     scales = [one for one in firsts(shipped) if one.kind in ("zero", "negative", "/1000", "x1000", "1e-30", "absent")]
-    for mutation in random.Random(1).sample(scales, 60):
+    for mutation in random.Random(1).sample(scales, 40):
         with tempfile.TemporaryDirectory() as name:
             (Path(name) / shipped.name).write_text(toml_text(mutation.document), encoding="utf-8")
             for verb in shipped.verbs[:-1]:

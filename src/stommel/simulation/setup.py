@@ -25,6 +25,7 @@ from stommel.simulation.plant.waves import waves_of
 from stommel.simulation.plant.world import new_world
 from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.scenario_file import ScenarioFile
+from stommel.simulation.stiffness import refuse_stiffness
 from stommel.simulation.timing import Loop, column_step, loop_of
 from stommel.vehicle import PHYSICS
 
@@ -80,6 +81,7 @@ def prepare(mission: Mission) -> Setup:
     plant, sensors = plant_of(mission.vehicle), sensors_of(scenario)
     orders = orders_of(mission.deployment, scenario.integration.control_step_s, plant.battery.energy)
     loop = loop_of(mission, vehicle, orders.dives)
+    refuse_stiffness(loop)
     ticks = round(scenario.duration_days * 86400.0 / loop.control_step)
     grid = mission.ocean.grid()
     start = scenario.start

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from stommel.design.endurance.best_flights import BestFlights, best_flights
 from stommel.design.endurance.endurance import DAY, Endurance, balance, endurance
 from stommel.design.endurance.sensitivity import Sensitivity, sensitivity
@@ -108,6 +110,7 @@ MODEL_ASSUMPTIONS = (
 """What the model itself assumes, beside its numbers."""
 
 
+@np.errstate(divide="ignore", invalid="ignore")  # what is infinite is refused by name
 def energy_study(
     vehicle: Vehicle,
     *,

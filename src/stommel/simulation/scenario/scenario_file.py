@@ -19,6 +19,10 @@ from stommel.simulation.scenario.world_tables import (
     Waves,
 )
 
+MOST_CONTROL_STEPS = 1e8
+"""Of a mission: three years of seconds."""
+MOST_ROWS = 1e7
+"""Of output, and of samples of the CTD: they are kept in memory."""
 LONGEST_LATENCY = 16
 """Control steps by which a measurement may reach the software late, and one."""
 
@@ -82,6 +86,17 @@ class ScenarioFile(Plan):
             steps = value / step
             if abs(steps - round(steps)) > 1e-9 or steps < 1:
                 raise ValueError(f"{key} = {value:g}: must be a multiple of integration.control_step_s = {step:g}")
+        for key, every, most in (
+            ("integration.control_step_s", step, MOST_CONTROL_STEPS),
+            ("output_every_s", self.output_every_s, MOST_ROWS),
+            ("sampling.every_s", self.sampling.every_s, MOST_ROWS),
+        ):
+            count = self.duration_days * 86400.0 / every
+            if count > most:
+                raise ValueError(
+                    f"{key} = {every:g}: makes {count:.3g} steps of duration_days = {self.duration_days:g}; at most "
+                    f"{most:g} are flown"
+                )
         longest = (LONGEST_LATENCY - 1) * step
         for key in ("attitude_latency_s", "pressure_latency_s"):
             late = getattr(self.sensors, key)

@@ -190,4 +190,4 @@ def _limit(constraints: Sequence[Any], attribute: str) -> float | None:
 def _plain(limit: float | None) -> str:
     """A limit as a file might write it: 1000000, 0.5, 1e-05."""
     assert limit is not None
-    return f"{limit:.12g}"
+    return str(limit) if isinstance(limit, int) else f"{limit:.12g}"

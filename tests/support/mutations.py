@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
+from stommel.files.provenance import KINDS
+
 Path = tuple[str | int, ...]
 
 
@@ -75,7 +77,7 @@ class Mutation:
 def mutations(document: dict[str, Any]) -> Iterator[Mutation]:
     """Yield every one-key mutation of a document."""
     for path, value in _places(document, ()):
-        if path[-1] in ("source", "assumption", "derived", "range"):
+        if path[-1] in KINDS:
             continue
         number = isinstance(value, int | float) and not isinstance(value, bool)
         for kind, change in (OF_NUMBERS if number else OF_OTHERS).items():
@@ -87,6 +89,8 @@ def _places(here: Any, path: Path) -> Iterator[tuple[Path, Any]]:
     if path:
         yield path, here
     inside = here.items() if isinstance(here, dict) else enumerate(here) if isinstance(here, list) else ()
+    if isinstance(here, dict) and "value" in here and any(kind in here for kind in KINDS):
+        inside = [("value", here["value"])]  # what is said of a number's origin is not its value
     for part, value in inside:
         yield from _places(value, (*path, part))
 

@@ -30,6 +30,7 @@ def implausible(vehicle: VehicleFile) -> Findings:
     yield from _water(vehicle)
     yield from actuator_findings(vehicle)
     yield from _hull(vehicle)
+    yield from _outside_things(vehicle)
     yield from _parts(vehicle)
     yield from energy_findings(vehicle)
     yield from machinery_findings(vehicle)
@@ -202,6 +203,26 @@ def _hull_size(vehicle: VehicleFile, hull: Hull) -> Findings:
             "specification.overall_length_m",
             f"hull with nose and tail is {overall:.3g} m long; {spec.overall_length_m:g} m are specified",
         )
+
+
+def _outside_things(vehicle: VehicleFile) -> Findings:
+    """The antenna stands out of the hull, away from the middle; the bladder lies in the water."""
+    antenna, engine, hull = vehicle.antenna, vehicle.actuators.buoyancy, vehicle.hull
+    if antenna is not None and hull is not None:
+        x, y, z = antenna.position_m
+        inside = hull.nose_position_m - longest_m(vehicle) + hull.nose_length_m <= x
+        if inside and y * y + z * z < (hull.outer_diameter_mm / 2e3) ** 2:
+            yield "antenna.position_m", "antenna.position_m: does not stand out of the hull"
+        if abs(x) < 0.1 * longest_m(vehicle):
+            yield "antenna.position_m", f"antenna.position_m: {x:g} m is so near the middle that no pitch raises it"
+    flooded = [bay for bay in vehicle.bays if bay.flooded]
+    if engine is not None and engine.bladder_position_m is not None and flooded:
+        at = engine.bladder_position_m[0]
+        if not any(bay.to_m - 1e-6 <= at <= bay.from_m + 1e-6 for bay in flooded):
+            yield (
+                "actuators.buoyancy.bladder_position_m",
+                f"actuators.buoyancy.bladder_position_m: {at:g} m is in no flooded bay; the bladder lies in the water",
+            )
 
 
 def _parts(vehicle: VehicleFile) -> Findings:

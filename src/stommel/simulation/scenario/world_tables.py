@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Finite, Name, Table
+from stommel.files.fields import Finite, Name, Point, Table
 from stommel.files.ranges import DepthOrZero, Seconds, Share, between
 
 FieldPart = Annotated[float, between(-5, 5)]
@@ -46,6 +46,10 @@ class Sensing(Table):
     """Standard deviation of the height above the bottom."""
     altimeter_range_m: DepthOrZero = 50.0
     """Farther away the bottom is not heard."""
+    magnetic_declination_deg: Annotated[float, between(-180, 180)] = 0.0
+    """Of the Earth's field, east of true north positive."""
+    known_declination_deg: Annotated[float, between(-180, 180)] | None = None
+    """What the software corrects its headings by; the true declination if left out. The difference is an error."""
     magnetic_inclination_deg: Annotated[float, between(-90, 90)] = 45.0
     """Dip of the Earth's field below the horizontal."""
     hard_iron: Triple = (0.0, 0.0, 0.0)
@@ -117,6 +121,8 @@ class Leak(Table):
     after_hours: Annotated[float, between(0, 17520)] = 0.0
     rate_ml_min: Annotated[float, between(0, 1e5)] = 0.0
     """Zero for a tight hull."""
+    position_m: Point | None = None
+    """Where the water stays, in the body frame: a compartment of its own. If left out, it runs to the lowest place."""
 
 
 Policy = Literal["error", "hold", "climatology"]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stommel.cli.finish import finish
+from stommel.cli.numbers import seed_option
 from stommel.cli.options import JsonOption
 from stommel.cli.output import number, show_table, show_values
 from stommel.cli.paths import PlotsOption, file_parser
@@ -39,9 +40,7 @@ def simulate(
         ),
     ] = None,
     plots: PlotsOption = None,
-    seed: Annotated[
-        int | None, typer.Option("--seed", min=0, help="Of every random draw; the mission file's if left out.")
-    ] = None,
+    seed: Annotated[int | None, seed_option("Of every random draw; the mission file's if left out")] = None,
     speed_up: Annotated[
         bool, typer.Option("--speed-up", help="Also tell how many times faster than real time it was flown.")
     ] = False,

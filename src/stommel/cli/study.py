@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stommel.cli.finish import finish
+from stommel.cli.numbers import count_option
 from stommel.cli.options import JsonOption
 from stommel.cli.output import show_table
 from stommel.cli.paths import parser_with
@@ -42,7 +43,7 @@ def study(
             help="Result, .nc or .zarr; STUDY.nc in this folder if left out.",
         ),
     ] = None,
-    workers: Annotated[int | None, typer.Option("--workers", help="Processes; all cores if left out.")] = None,
+    workers: Annotated[int | None, count_option("--workers", 1, 1024, "Processes; all cores if left out")] = None,
     scheduler: Annotated[
         str | None, typer.Option("--scheduler", help="Fly on a Dask cluster instead, such as tcp://host:8786.")
     ] = None,

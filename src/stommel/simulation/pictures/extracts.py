@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from stommel.control.dive_cycle import PHASES
+from stommel.simulation.results.events import dives_begun
 
 Array = NDArray[np.float64]
 
@@ -37,13 +37,12 @@ def date(dataset: xr.Dataset) -> str:
 
 def _begins(dataset: xr.Dataset) -> NDArray[np.datetime64]:
     """Times at which dives begin."""
-    begins: NDArray[np.datetime64] = dataset["event_time"].values[
-        dataset["event_phase"].values == PHASES.index("descent")
-    ]
+    begun = dives_begun(dataset["event_phase"].values, dataset["event_reason"].values)
+    begins: NDArray[np.datetime64] = dataset["event_time"].values[begun]
     return begins
 
 
-def dives_begun(dataset: xr.Dataset) -> int:
+def dives_in(dataset: xr.Dataset) -> int:
     """How many dives there are."""
     return len(_begins(dataset))
 

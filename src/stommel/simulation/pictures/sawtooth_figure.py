@@ -10,7 +10,7 @@ from stommel.control.dive_cycle import PHASES
 from stommel.figures.style import INK, MUTED, VERMILION, new_figure, styled
 from stommel.simulation.pictures.extracts import (
     date,
-    dives_begun,
+    dives_in,
     first_dives,
     fitting_unit,
     mean_in_cells,
@@ -36,7 +36,7 @@ _BOTTOM_SHOWN = 1.5
 @styled
 def sawtooth_figure(dataset: xr.Dataset) -> "Figure":
     """Draw density over time and depth, averaged in cells between the dives, with the path and the bottom."""
-    many = dives_begun(dataset) > _READABLE_DIVES
+    many = dives_in(dataset) > _READABLE_DIVES
     figure = new_figure(9.4, 7.4 if many else 4.2)
     figure.suptitle(f"{dataset.attrs['title']}: sawtooth over density, from {date(dataset)}", fontsize=9.5, x=0.012,
                     ha="left")  # fmt: skip

@@ -46,6 +46,11 @@ def _begins(dataset: xr.Dataset) -> NDArray[np.datetime64]:
     return begins
 
 
+def dive_times(dataset: xr.Dataset) -> Array:
+    """Times after the first row at which dives begin [s]."""
+    return np.asarray((_begins(dataset) - dataset["time"].values[0]) / np.timedelta64(1, "ns"), dtype=float) / 1e9
+
+
 def dives_in(dataset: xr.Dataset) -> int:
     """How many dives there are."""
     return len(_begins(dataset))

@@ -41,6 +41,15 @@ def simulate(
         ),
     ] = None,
     plots: PlotsOption = None,
+    track: Annotated[
+        Path | None,
+        typer.Option(
+            "--track",
+            metavar="FILE",
+            parser=file_parser("--track", ".geojson", ".kml"),
+            help="Track with waypoints and surfacings for other maps, .geojson or .kml.",
+        ),
+    ] = None,
     seed: Annotated[
         int | None, typer.Option("--seed", min=0, help="Of every random draw; the mission file's if left out.")
     ] = None,
@@ -76,7 +85,7 @@ def simulate(
     row["flight_s"] = seconds
     row["speed_up"] = None if seconds is None else row["days"] * 86400.0 / seconds
     with _interruptible("while writing; the files that are there are whole"):
-        written = _write(flown, output, plots)
+        written = _write(flown, output, plots, track)
     finish(row, written, as_json, _show)
 
 
@@ -161,8 +170,8 @@ def _speed_column() -> "ProgressColumn":
     return Speed(Column(min_width=21, justify="right"))
 
 
-def _write(flown: "Flown", output: Path | None, plots: Path | None) -> list[Path]:
-    if output is None and plots is None:
+def _write(flown: "Flown", output: Path | None, plots: Path | None, track: Path | None) -> list[Path]:
+    if output is None and plots is None and track is None:
         return []
     from stommel.simulation.results.dataset import dataset_of, write_netcdf
 
@@ -170,6 +179,11 @@ def _write(flown: "Flown", output: Path | None, plots: Path | None) -> list[Path
     if output is not None:
         write_netcdf(dataset, output)
         written.append(output)
+    if track is not None:
+        from stommel.simulation.results.track import write_track
+
+        write_track(dataset, track)
+        written.append(track)
     if plots is not None:
         from stommel.simulation.pictures import save_pictures
 

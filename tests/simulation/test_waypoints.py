@@ -201,7 +201,7 @@ def test_a_goal_that_recedes_is_named(swept: Flown) -> None:
     assert receding.named_s == swept.surfacings["time"][3]
     assert receding.growth_m == pytest.approx(away[-1] - away[0], rel=0.006)
     dataset = dataset_of(swept)
-    (event,) = np.flatnonzero(dataset["event_reason"].values == NAMES.index("swept away from the waypoint"))
+    (event,) = np.flatnonzero(dataset["event_reason"].values == NAMES.index("swept away"))
     assert dataset["event_waypoint"].values[event] == 1
     assert (dataset["event_time"].values[event] - dataset["time"].values[0]) / np.timedelta64(1, "s") == pytest.approx(
         receding.named_s, abs=1e-6

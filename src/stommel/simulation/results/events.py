@@ -11,7 +11,7 @@ from stommel.simulation.log import EVENT, REASONS
 from stommel.simulation.results.waypoints import Waypoints
 
 WAYPOINT_REACHED, SWEPT_AWAY = len(REASONS), len(REASONS) + 1
-NAMES = (*REASONS, "waypoint reached", "swept away from the waypoint")
+NAMES = (*REASONS, "waypoint reached", "swept away")
 """Why or what: what the log says, and what follows from the record."""
 
 

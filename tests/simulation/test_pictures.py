@@ -226,9 +226,33 @@ def test_page_tells_of_every_waypoint(cornered: xr.Dataset) -> None:
     # a degree of longitude and latitude at 17 S, WGS 84 [km], from 179.998 E
     assert numbers(data["waypoints"]["east"]) == pytest.approx(106.4526 * np.array([0.012, 0.017, 0.032]), rel=2e-3)
     assert numbers(data["waypoints"]["north"])[1:] == pytest.approx(110.6633 * np.array([0.01, -0.05]), rel=2e-3)
-    for after in cornered["waypoint_reached_after"].values[:2]:
-        moment = str(cornered["time"].values[0] + np.timedelta64(round(after), "s"))[:16].replace("T", " ")
-        assert f"<td>{moment}</td>" in html
+    names = ("waypoint_reached_after", "waypoint_closest_approach", "waypoint_distance")
+    columns = zip(*(cornered[name].values for name in names), strict=True)
+    for number, (after, nearest, away) in enumerate(columns, 1):
+        when, to_go = "no", f"{away / 1e3:.1f} km"
+        if np.isfinite(after):
+            moment = cornered["time"].values[0] + np.timedelta64(round(after), "s")
+            when, to_go = str(moment)[:16].replace("T", " "), "–"
+        near = f"{nearest:.0f} m" if nearest < 3000.0 else f"{nearest / 1e3:.1f} km"
+        assert f"<td>{number}</td><td>{when}</td><td>{near}</td><td>{to_go}</td>" in html
+
+
+def test_page_tells_the_outcome_in_numbers() -> None:
+    result = flown(duration_days=0.1)
+    row, html = summary(result), interactive_page(dataset_of(result))
+    used = sum(row["energy_wh"].values())
+    assert f"<td>{used:.2f} of {row['battery_wh']:.1f} Wh used, {row['battery_left_share']:.0%} left</td>" in html
+    assert f"<td>{row['dives']}, deepest {row['deepest_m']:.1f} m</td>" in html
+    over, made = (row[f"distance_{way}_km"] for way in ("over_ground", "made_good"))
+    assert f"<td>{1e3 * over:.0f} m over ground, {1e3 * made:.0f} m made good</td>" in html
+    assert "<td>2026-07-01 00:00 to 2026-07-01 02:23, 144 minutes</td>" in html
+
+
+def test_what_is_far_is_told_from_the_end_not_from_the_nearest_approach(cornered: xr.Dataset) -> None:
+    changed = cornered.assign(waypoint_closest_approach=cornered["waypoint_closest_approach"] - 150.0)
+    html = interactive_page(changed)
+    nearest, away = (float(changed[name][2]) / 1e3 for name in ("waypoint_closest_approach", "waypoint_distance"))
+    assert f"<td>{nearest:.1f} km</td><td>{away:.1f} km</td>" in html
 
 
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="needs Chromium")

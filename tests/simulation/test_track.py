@@ -63,6 +63,10 @@ def test_waypoints_and_surfacings_stand_at_their_places(crossing: xr.Dataset) ->
     assert second["properties"]["reached_utc"] is None
     found = [one["geometry"]["coordinates"] for one in features(crossing, "surfacing")]
     assert np.array(found)[:, 1] == pytest.approx(crossing["surfacing_latitude"].values, abs=1e-7)
+    for way in ("north", "east"):
+        currents = [one["properties"][f"current_{way}_m_s"] for one in features(crossing, "surfacing")]
+        assert currents == pytest.approx(crossing[f"depth_averaged_current_{way}"].values, abs=1e-4)
+        assert max(map(abs, currents)) > 1e-3
     legs = features(crossing, "planned legs")[0]["geometry"]["coordinates"]
     assert [leg[0] for leg in legs] == [[179.993, -17.0], [-180.0, -17.0]]
     assert legs[1][1:] == [[-179.9995, -17.0], [-179.9, -16.9]]

@@ -10,7 +10,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from stommel.control.dive_cycle import PHASES
+from stommel.geometry.geodesics import Place, beside_line
 from stommel.simulation.flight import Flown
+from stommel.simulation.log import OUTSIDE_DATA
+from stommel.simulation.pictures.extracts import dives_in
 from stommel.simulation.results.dataset import dataset_of, write_netcdf
 from stommel.simulation.results.events import NAMES
 from stommel.simulation.results.summary import summary
@@ -166,6 +170,36 @@ def test_legs_across_the_date_line_against_closed_forms(three: Flown) -> None:
     assert first is not None
     assert first.made_good_m == pytest.approx(sqrt(1000.0**2 + 50.0**2) - 50.0, abs=1e-2)
     assert first.made_good_m_s == pytest.approx(first.made_good_m / 100.0)
+
+
+@pytest.mark.parametrize(("latitude", "north_m"), [(60.0, 100.0), (60.0, -250.0), (-72.0, 100.0)])
+def test_distance_from_a_leg_along_a_parallel(latitude: float, north_m: float) -> None:
+    """A parallel is the rhumb line from east to west; beside it the meridian's radius of curvature gives metres."""
+    w = 1.0 - E2 * np.sin(radians(latitude)) ** 2
+    beside = latitude + np.degrees(north_m / (A * (1.0 - E2) / w**1.5))
+    start, end = Place(latitude, 179.0), Place(latitude, -179.0)
+    found = beside_line(np.full(3, beside), np.array([179.0, 180.0, -179.5]), start, end)
+    assert found == pytest.approx(np.full(3, -north_m), rel=1e-4)  # north of an eastward leg is to port
+
+
+def test_what_happens_during_a_dive_is_no_dive(three: Flown) -> None:
+    extra = three.events[:1].copy()
+    descent = float(PHASES.index("descent"))
+    extra["phase"], extra["reason"], extra["time"] = descent, OUTSIDE_DATA, three.events["time"][0] + 1.0
+    more = replace(three, events=np.concatenate([three.events[:1], extra, three.events[1:]]))
+    descents = int(np.sum(three.events["phase"] == descent))
+    assert summary(more)["dives"] == summary(three)["dives"] == descents
+    assert dives_in(dataset_of(more)) == descents
+    assert summary(more)["events"]["outside the ocean's data"] == 1
+
+
+def test_self_discharge_is_power_times_time(three: Flown) -> None:
+    battery = three.plant.battery
+    assert battery.self_discharge > 0.0
+    spent = summary(three)["energy_wh"]["self_discharge"]
+    assert spent == pytest.approx(battery.self_discharge * 0.25 * 24.0, rel=1e-3)  # a quarter of a day, but a row
+    curve = dataset_of(three)["energy_self_discharge"].values
+    assert np.diff(curve) == pytest.approx(np.full(len(curve) - 1, battery.self_discharge * 10.0))
 
 
 def test_missed_by_how_much_between_rows(three: Flown) -> None:

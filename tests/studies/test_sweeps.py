@@ -81,6 +81,31 @@ def test_draws_have_the_moments_of_their_distribution() -> None:
     assert values[:, 1].std() == pytest.approx(4.0 / np.sqrt(12.0), rel=0.02)
 
 
+def test_draws_are_of_the_seed() -> None:
+    drawn = {"key": "mission.y", "distribution": "uniform", "from": 2.0, "to": 6.0}
+    studies = [
+        StudyFile.model_validate(
+            {"name": "s", "mission": "m", "kind": "sweep", "runs": 4, "seed": seed,
+             "parameters": [{"key": "mission.x", "values": [1]}, drawn]}
+        )
+        for seed in (1, 1, 2)
+    ]  # fmt: skip
+    one, again, other = (run_values(file) for file in studies)
+    assert one == again
+    assert one != other
+
+
+def test_runs_that_cannot_be_flown_are_counted_out(folder: Path, write: Write) -> None:
+    study = write(
+        'kind = "sweep"\nruns = 2\noutputs = ["dives"]\n[[parameters]]\nkey = "mission.dives.ballast_ml"\n'
+        "values = [200, 5000]\n"
+    )
+    done = run_study(load_study(study), folder / "f.nc", workers=1)
+    flown, failed = done.combinations()
+    assert (flown.flown, flown.runs, set(flown.outputs)) == (2, 2, {"dives"})
+    assert (failed.flown, failed.runs, failed.outputs) == (0, 2, {})
+
+
 def test_table_of_a_sweep_has_means_of_its_runs(swept: tuple[Finished, Path]) -> None:
     done, folder = swept
     result = xr.load_dataset(folder / "r.nc")

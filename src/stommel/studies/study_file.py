@@ -30,7 +30,7 @@ _OF_DISTRIBUTION = {
 
 
 class Parameter(Table):
-    """One key that the study changes. A sweep gives values, every other kind a distribution."""
+    """One key that the study changes. A sweep gives values, or beside others a distribution; every other kind that."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=False)
 
@@ -72,6 +72,11 @@ class Parameter(Table):
         """Keys of the file that describe values or distribution."""
         names = {info.alias or name: name for name, info in type(self).model_fields.items()}
         return {key for key, name in names.items() if key not in ("key", "name") and getattr(self, name) is not None}
+
+    @property
+    def drawn(self) -> bool:
+        """Whether its values are drawn from a distribution."""
+        return self.distribution is not None
 
     def check_sweep(self) -> None:
         """Refuse what is no list or range of values."""
@@ -146,10 +151,12 @@ class StudyFile(Table):
         if not self.parameters:
             raise ValueError("parameters is empty; add a table [[parameters]] with the key to change")
         for parameter in self.parameters:
-            if self.kind == SWEEP:
+            if self.kind == SWEEP and not parameter.drawn:
                 parameter.check_sweep()
             else:
                 parameter.check_distribution(self.kind)
+        if self.kind == SWEEP:
+            self._check_draws()
         keys = [parameter.key for parameter in self.parameters]
         for key in keys:
             if keys.count(key) > 1:
@@ -164,6 +171,14 @@ class StudyFile(Table):
             raise ValueError(f"the study has {self.count} runs; at most {MOST_RUNS} are allowed")
         return self
 
+    def _check_draws(self) -> None:
+        """Refuse a sweep whose parameters are all drawn, or whose count of draws is missing."""
+        drawn = [parameter.key for parameter in self.parameters if parameter.drawn]
+        if len(drawn) == len(self.parameters):
+            raise ValueError(f"{drawn[0]}: a sweep needs a parameter with values; use kind = 'monte_carlo' without any")
+        if drawn and self.runs is None:
+            raise ValueError(f"runs is missing; add runs = <count of draws of {drawn[0]} at each combination>")
+
     @property
     def count(self) -> int:
         """Runs in all."""
@@ -172,7 +187,8 @@ class StudyFile(Table):
             return runs * (len(self.parameters) + 2)
         if self.kind == SWEEP:
             for parameter in self.parameters:
-                runs *= len(parameter.values) if parameter.values is not None else parameter.steps or 1
+                if not parameter.drawn:
+                    runs *= len(parameter.values) if parameter.values is not None else parameter.steps or 1
         return runs
 
 

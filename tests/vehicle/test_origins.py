@@ -5,7 +5,7 @@ import pytest
 from stommel.design.endurance import energy_study
 from stommel.vehicle import builtin_names, load_vehicle, stated_numbers
 
-INFERRED = ("recovered from", "included in", "fitted", "less hull", "times", "hull lengths", "Slocum-like", "typical")
+INFERRED = ("recovered from", "included in", "fitted", "less hull", "times", "hull lengths", "Slocum-like")
 
 
 def test_no_inferred_number_of_a_builtin_vehicle_passes_for_a_source() -> None:

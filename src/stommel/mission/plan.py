@@ -35,7 +35,7 @@ class Dives(Table):
     how slow the dive may become; instead of it, what the ballast volume follows from."""
     ballast_ml: Volume | None = None
     """Ballast volume beyond neutral where the water drives least, instead of a speed."""
-    per_surfacing: Annotated[int, Field(strict=True, ge=1, le=500)] = 1
+    per_surfacing: Annotated[int, Field(strict=True, ge=1, le=10_000)] = 1
     """Dives from one stay at the surface to the next."""
     turn_depth_m: DepthOrZero = 10.0
     """Depth of the upper turn of dives that do not surface."""
@@ -110,7 +110,7 @@ class PitchControl(Table):
     """Error that is left alone."""
     period_s: Period = 120.0
     """Time between corrections."""
-    tolerance_mm: Annotated[float, between(0.001, 1000)] = 0.5
+    tolerance_mm: Annotated[float, between(1e-6, 1000)] = 0.5
     """Distance from its command below which the moving mass stays where it is."""
 
 

@@ -5,28 +5,52 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stommel.cli.finish import finish
-from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.numbers import number_option
+from stommel.cli.options import (
+    ANGLES,
+    DEPTHS,
+    SPEEDS,
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
 from stommel.cli.output import number, show_entries, show_notes, show_table, show_values
 from stommel.cli.paths import PlotOption
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
-    from stommel.design.endurance import BestFlight, EnergyStudy, Gap, Interval, Sensitivity
+    from stommel.design.endurance import BestFlight, Endurance, EnergyStudy, Gap, Interval, Sensitivity
+    from stommel.design.endurance.sea import Sea
 
 MOST_SHOWN = 12
 
 
 def endurance(
     vehicle: VehicleArgument,
-    depth: Annotated[float | None, typer.Option("--depth", help="Depth of the dives [m]; the specification's.")] = None,
+    depth: Annotated[
+        float | None, number_option("--depth", *DEPTHS, "m", "Depth of dives; as specified if left out")
+    ] = None,
     speed: Annotated[
-        float | None, typer.Option("--speed", help="Speed along the path [m/s]; the specification's design speed.")
+        float | None, number_option("--speed", *SPEEDS, "m/s", "Speed along the path; as specified if left out")
     ] = None,
     pitch: Annotated[
-        float | None, typer.Option("--pitch", help="Pitch of the dives [deg], negative; the specification's.")
+        float | None,
+        number_option("--pitch", *ANGLES, "deg", "Pitch of the dives, negative; as specified if left out"),
     ] = None,
     temperature: Annotated[
-        float | None, typer.Option("--temperature", help="Temperature of the water [deg C]; water.temperature_c.")
+        float | None,
+        number_option("--temperature", -3, 45, "deg C", "Temperature of the water; the file's if left out"),
+    ] = None,
+    ocean: Annotated[
+        str | None,
+        typer.Option("--ocean", help="Analytic ocean, ocean file or profile, for stratification and temperature."),
+    ] = None,
+    at: Annotated[str | None, typer.Option("--at", metavar="LAT,LON", help="Place in the ocean [deg].")] = None,
+    time: Annotated[
+        str | None, typer.Option("--time", help="ISO 8601 time, UTC; the ocean's first if left out.")
     ] = None,
     physics: PhysicsOption = PhysicsChoice.paper,
     plot: PlotOption = None,
@@ -44,6 +68,7 @@ def endurance(
         pitch_deg=pitch,
         depth_m=depth,
         temperature_c=temperature,
+        sea=_sea(ocean, at, time),
         physics=physics_of(physics),
     )
     written = []
@@ -53,6 +78,29 @@ def endurance(
 
         written.append(save_figure_as(endurance_figure(study), plot))
     finish(study, written, as_json, _show)
+
+
+def _sea(ocean: str | None, at: str | None, time: str | None) -> "Sea | None":
+    """The ocean that the options choose."""
+    from stommel.cli.ocean.choice import OceanOptionError, open_ocean, place
+
+    if ocean is None:
+        if at is not None or time is not None:
+            raise OceanOptionError(f"{'--at' if at is not None else '--time'}: needs --ocean")
+        return None
+    where = place(at)
+    if where is None:
+        raise OceanOptionError("--ocean: needs a place, --at LATITUDE,LONGITUDE like 28.2,126.6")
+    from stommel.design.endurance.sea import Sea
+    from stommel.ocean.times import seconds
+
+    found = open_ocean(
+        [ocean],
+        {"names": {}, "parameters": {}, "bounds": None, "between": None, "at_rest": False},
+        {"outside": "error"},
+    )
+    when = float(found.data.nodes.times[0]) if time is None else seconds(time)
+    return Sea(found, when, *where)
 
 
 def _show(study: "EnergyStudy") -> None:
@@ -72,10 +120,12 @@ def _show_answer(study: "EnergyStudy") -> None:
     if study.target_days is not None:
         asked = f"; {counted(study.target_days, 'day')} asked: {'met' if study.gap is None else 'NOT MET'}"
     minutes = float(cycle.duration_s) / 60.0
+    sea = {"sea": _sea_in_words(result)} if result.sea is not None else {}
     show_values(
         f"{study.vehicle.name}: dives to {wanted.depth_m:g} m at {wanted.speed_m_s:g} m/s, "
         f"pitch {wanted.pitch_deg:g} deg",
-        {
+        sea
+        | {
             "endurance": f"{counted(number(result.days, 1), 'day')}{asked}",
             "between": _interval_in_words(study.interval),
             "range": f"{result.range_m / 1e3:.0f} km in still water",
@@ -83,10 +133,20 @@ def _show_answer(study: "EnergyStudy") -> None:
             "mean power": f"{result.mean_power_w:.2f} W",
             "battery": f"{stored.usable_j / 3.6e6:.3f} of {stored.rated_j / 3.6e6:.3f} kWh usable, at "
             f"{result.model.temperature_c:g} deg C",
-            "ballast": f"{(result.climb.V_b - result.dive.V_b) * 1e6:.0f} ml from dive to climb, "
+            "ballast": f"{result.ballast_swing_m3 * 1e6:.0f} ml from dive to climb, "
             f"{_pressure_mpa(study):.2f} MPa at depth",
         },
     )
+
+
+def _sea_in_words(result: "Endurance") -> str:
+    """Where it dives, and whether the water lets it fly as slowly as wanted."""
+    sea = result.sea
+    assert sea is not None
+    place = f"{sea.ocean.name} at {sea.latitude_deg:g}, {sea.longitude_deg:g}"
+    if result.flown_speed_m_s > 1.01 * result.wanted.speed_m_s:
+        return f"{place}; its stratification makes the dives {result.flown_speed_m_s:.3g} m/s on average"
+    return place
 
 
 def _interval_in_words(interval: "Interval") -> str:

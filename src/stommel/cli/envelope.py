@@ -6,8 +6,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stommel.cli.finish import finish
-from stommel.cli.numbers import numbers
-from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.numbers import numbers, pairs_of
+from stommel.cli.options import (
+    ANGLES,
+    SPEEDS,
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
 from stommel.cli.output import number, show_table, show_values
 from stommel.errors import StommelError
 
@@ -39,13 +48,13 @@ def envelope(
     if (speed is None) != (pitch is None):
         raise StommelError("--speed and --pitch go together: a region has both")
     if speed is not None and pitch is not None:
-        wanted = [(v, p) for v in numbers(speed, "--speed") for p in numbers(pitch, "--pitch")]
+        wanted = _region(speed, pitch)
     else:
         wanted = specified_flights(glider) if _specifies(glider) else []
     needs = ranges_needed(glider, wanted, physics=switches) if wanted else None
     engine = glider.description.actuators.buoyancy
     reach = flight_envelope(glider, physics=switches) if engine is not None else None
-    full_ml = engine.volume_ml[0] if engine is not None else 0.0
+    full_ml = engine.range_ml[0] if engine is not None else 0.0
     best = best_conditions(glider, ballast_ml=full_ml, physics=switches) if full_ml < 0.0 else None
     if reach is None and needs is None:
         raise StommelError(
@@ -58,6 +67,12 @@ def envelope(
         **(best.as_row() if best is not None else {"best_glide": None, "fastest": None}),
     }
     finish(answer, None, as_json, lambda _: _show(glider.name, reach, best, needs))
+
+
+def _region(speed: str, pitch: str) -> list[tuple[float, float]]:
+    """Every pair of a speed and a pitch."""
+    speeds, pitches = numbers(speed, "--speed", SPEEDS, "m/s"), numbers(pitch, "--pitch", ANGLES, "deg")
+    return pairs_of(speeds, pitches, "speeds", "pitches")
 
 
 def _specifies(glider: "Vehicle") -> bool:

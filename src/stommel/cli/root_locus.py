@@ -5,7 +5,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stommel.cli.finish import finish
-from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.numbers import count_option, number_option
+from stommel.cli.options import (
+    ANGLES,
+    SPEEDS,
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
 from stommel.cli.output import number, show_table
 from stommel.cli.paths import PlotOption
 
@@ -13,6 +23,10 @@ if TYPE_CHECKING:
     import numpy as np
 
     from stommel.analysis import RootLocus
+
+
+VALUES = (-1e6, 1e6)
+"""Of any number of a vehicle file; its own field says what it may be."""
 
 
 def root_locus(
@@ -25,11 +39,11 @@ def root_locus(
             "vehicle file in the file's unit, such as rigid_body.centre_of_mass_m.2",
         ),
     ],
-    start: Annotated[float, typer.Option("--from", help="First value.")],
-    stop: Annotated[float, typer.Option("--to", help="Last value.")],
-    points: Annotated[int, typer.Option("--points", help="How many values.")] = 41,
-    speed: Annotated[float, typer.Option("--speed", help="Speed along the path [m/s].")] = 0.4,
-    pitch: Annotated[float, typer.Option("--pitch", help="Pitch [deg].")] = -35.0,
+    start: Annotated[float, number_option("--from", *VALUES, "", "First value")],
+    stop: Annotated[float, number_option("--to", *VALUES, "", "Last value")],
+    points: Annotated[int, count_option("--points", 2, 2000, "How many values")] = 41,
+    speed: Annotated[float, number_option("--speed", *SPEEDS, "m/s", "Speed along the path")] = 0.4,
+    pitch: Annotated[float, number_option("--pitch", *ANGLES, "deg", "Pitch; negative dives")] = -35.0,
     physics: PhysicsOption = PhysicsChoice.paper,
     plot: PlotOption = None,
     as_json: JsonOption = False,

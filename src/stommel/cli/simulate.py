@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stommel.cli.finish import finish
+from stommel.cli.numbers import seed_option
 from stommel.cli.options import JsonOption
 from stommel.cli.output import number, show_notes, show_table, show_values, show_warnings
 from stommel.cli.paths import PlotsOption, file_parser, refuse_same
@@ -49,9 +50,7 @@ def simulate(
             help="Track with waypoints and surfacings for other maps, .geojson or .kml.",
         ),
     ] = None,
-    seed: Annotated[
-        int | None, typer.Option("--seed", min=0, help="Of every random draw; the mission file's if left out.")
-    ] = None,
+    seed: Annotated[int | None, seed_option("Of every random draw; the mission file's if left out")] = None,
     speed_up: Annotated[
         bool, typer.Option("--speed-up", help="Also tell how many times faster than real time it was flown.")
     ] = False,

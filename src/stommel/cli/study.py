@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stommel.cli.finish import finish
+from stommel.cli.numbers import count_option
 from stommel.cli.options import JsonOption
 from stommel.cli.output import show_table
 from stommel.cli.paths import PlotsOption, parser_with, refuse_same
@@ -49,7 +50,7 @@ def study(
         ),
     ] = None,
     plots: PlotsOption = None,
-    workers: Annotated[int | None, typer.Option("--workers", help="Processes; all cores if left out.")] = None,
+    workers: Annotated[int | None, count_option("--workers", 1, 1024, "Processes; all cores if left out")] = None,
     scheduler: Annotated[
         str | None, typer.Option("--scheduler", help="Fly on a Dask cluster instead, such as tcp://host:8786.")
     ] = None,

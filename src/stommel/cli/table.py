@@ -6,7 +6,16 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.numbers import MOST, NumberError, numbers
-from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.options import (
+    ANGLES,
+    SPEEDS,
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
 from stommel.cli.output import number, show_table
 from stommel.compilation import one_question
 
@@ -26,7 +35,7 @@ def table(
 
     Example: stommel table zju --speed 0.4 --pitch -5:-60:-5
     """
-    speeds, pitches = numbers(speed, "--speed"), numbers(pitch, "--pitch")
+    speeds, pitches = numbers(speed, "--speed", SPEEDS, "m/s"), numbers(pitch, "--pitch", ANGLES, "deg")
     if len(speeds) * len(pitches) > MOST:
         raise NumberError(f"{len(speeds)} speeds by {len(pitches)} pitches; at most {MOST} rows are allowed")
     from stommel.analysis.trim import trim_table

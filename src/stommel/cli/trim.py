@@ -2,10 +2,10 @@
 
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from stommel.cli.finish import finish
+from stommel.cli.numbers import number_option
 from stommel.cli.options import (
+    ANGLES,
     IgnoreLimitsOption,
     JsonOption,
     PhysicsChoice,
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 def trim(
     vehicle: VehicleArgument,
     speed: SpeedOption,
-    pitch: Annotated[float | None, typer.Option("--pitch", help="Pitch [deg]; negative dives.")] = None,
+    pitch: Annotated[float | None, number_option("--pitch", *ANGLES, "deg", "Pitch; negative dives")] = None,
     glide_path: Annotated[
-        float | None, typer.Option("--glide-path", help="Angle of the path instead of the pitch [deg].")
+        float | None, number_option("--glide-path", *ANGLES, "deg", "Angle of the path instead of the pitch")
     ] = None,
     physics: PhysicsOption = PhysicsChoice.paper,
     ignore_limits: IgnoreLimitsOption = False,

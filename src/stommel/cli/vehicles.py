@@ -7,7 +7,7 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import ForceOption, JsonOption, VehicleArgument, load
-from stommel.cli.output import number, show_entries, show_notes, show_table, show_values
+from stommel.cli.output import number, show_entries, show_notes, show_table, show_values, show_warnings
 from stommel.cli.paths import file_parser, refuse_existing
 from stommel.files.units import counted
 
@@ -82,6 +82,7 @@ def _origin_in_words(row: dict[str, Any]) -> str:
 def check(vehicle: VehicleArgument, as_json: JsonOption = False) -> None:
     """Check a vehicle file; every problem is one line with the key and what is allowed."""
     from stommel.vehicle import stated_numbers
+    from stommel.vehicle.plausible import implausible
 
     glider = load(vehicle)
     d = glider.description
@@ -96,6 +97,7 @@ def check(vehicle: VehicleArgument, as_json: JsonOption = False) -> None:
         "assumptions": kinds.count("assumption"),
         "not_stated": kinds.count("not stated"),
         "unknown_lateral": missing,
+        "warnings": [sentence for _, sentence in implausible(d)],
     }
     finish(summary, None, as_json, _show_check)
 
@@ -111,6 +113,7 @@ def _show_check(summary: dict[str, Any]) -> None:
             "planes": f"vertical only; missing {', '.join(missing)}" if missing else "vertical and lateral",
         },
     )
+    show_warnings(summary["warnings"])
 
 
 @vehicle_app.command("new")

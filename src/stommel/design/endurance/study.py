@@ -5,8 +5,11 @@ from dataclasses import dataclass
 from math import hypot
 from typing import Any
 
+import numpy as np
+
 from stommel.design.endurance.best_flights import BestFlights, best_flights
 from stommel.design.endurance.endurance import DAY, Endurance, endurance
+from stommel.design.endurance.sea import Sea
 from stommel.design.endurance.sensitivity import Sensitivity, sensitivity
 from stommel.design.endurance.varied import Case
 from stommel.errors import StommelError
@@ -128,7 +131,7 @@ class EnergyStudy:
 
 
 MODEL_ASSUMPTIONS = (
-    "Still water of one density: ballast for stratification is not in the balance.",
+    "Still water; of one density, unless an ocean is given. The best dives are sought in water of one density.",
     "Steady flight from turn to turn; in a turn, which lasts as long as its slower actuator, no depth is won or lost.",
     "The climb mirrors the dive: the same speed, and the same pitch upwards.",
     "At the surface the mass goes to its dive position, so that the tail with the antenna stands out of the water.",
@@ -138,6 +141,7 @@ MODEL_ASSUMPTIONS = (
 """What the model itself assumes, beside its numbers."""
 
 
+@np.errstate(divide="ignore", invalid="ignore")  # what is infinite is refused by name
 def energy_study(
     vehicle: Vehicle,
     *,
@@ -145,6 +149,7 @@ def energy_study(
     pitch_deg: float | None = None,
     depth_m: float | None = None,
     temperature_c: float | None = None,
+    sea: Sea | None = None,
     physics: Physics = PAPER,
 ) -> EnergyStudy:
     """Answer the whole energy question for one dive.
@@ -157,8 +162,11 @@ def energy_study(
         pitch_deg=pitch_deg,
         depth_m=depth_m,
         temperature_c=temperature_c,
+        sea=sea,
         physics=physics,
     )
+    if sea is not None:
+        vehicle = sea.trimmed(vehicle, physics, result.wanted.depth_m)
     spec = vehicle.description.specification
     target = spec.endurance_days if spec else None
     deepest = min(result.model.deepest_m, max(spec.depth_m if spec else 0.0, result.wanted.depth_m))

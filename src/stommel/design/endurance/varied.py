@@ -3,7 +3,15 @@
 from dataclasses import dataclass, replace
 
 from stommel.design.endurance.dive_cycle import fed
-from stommel.design.endurance.endurance import Endurance, Wanted, balance, check_dive, quick_flights_of, spent
+from stommel.design.endurance.endurance import (
+    Endurance,
+    Wanted,
+    balance,
+    ballast_in,
+    check_dive,
+    quick_flights_of,
+    spent,
+)
 from stommel.machinery.power.model import EnergyModel
 from stommel.vehicle import Physics, Vehicle
 
@@ -47,7 +55,8 @@ class Case:
         if self.flight:
             check_dive(self.vehicle, self.model, self.wanted)
             dive, climb = quick_flights_of(self.vehicle, self.wanted, self.physics)
-            return balance(self.model, self.wanted, dive, climb)
+            ballast = ballast_in(known.sea, self.vehicle, self.wanted, self.physics)
+            return balance(self.model, self.wanted, dive, climb, ballast)
         if self.movements:
-            return balance(self.model, self.wanted, known.dive, known.climb)
+            return balance(self.model, self.wanted, known.dive, known.climb, known.ballast)
         return spent(self.model, self.wanted, known.dive, known.climb, fed(known.cycle, self.model))

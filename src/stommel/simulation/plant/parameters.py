@@ -6,10 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.geometry.vectors import Vector
+from stommel.machinery.hull.floating import HullForm
 
 Array = NDArray[np.float64]
 
-PUMP, PITCH_DRIVE, STEERING, CONTROLLER, SENSORS, NAVIGATION, COMMUNICATION, HOTEL = range(8)
+PUMP, PITCH_DRIVE, STEERING, CONTROLLER, SENSORS, NAVIGATION, COMMUNICATION, HOTEL, BATTERY = range(9)
 CONSUMERS = (
     "pump",
     "pitch_drive",
@@ -19,8 +20,9 @@ CONSUMERS = (
     "navigation",
     "communication",
     "hotel",
+    "battery",
 )
-"""Who uses energy, in the order of every array of energies."""
+"""Who uses energy, in the order of every array of energies; the battery that which it turns into heat itself."""
 
 ALWAYS, UNDERWATER, DIVE, CLIMB, SURFACED, MOVING, DRIFTING, SAMPLING = range(8)
 CONDITIONS = ("always", "underwater", "dive", "climb", "surface", "moving", "drift", "sampling")
@@ -114,3 +116,5 @@ class Plant(NamedTuple):
     battery: Battery
     antenna: Vector
     """Tip of the antenna in the body frame [m]; not numbers where the vehicle file does not say."""
+    form: HullForm
+    """What of the hull stands out of the water."""

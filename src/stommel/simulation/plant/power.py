@@ -6,9 +6,10 @@ import numpy as np
 
 from stommel.compilation import inlined
 from stommel.control.commands import LOAD_CLIMB, LOAD_DIVE, LOAD_DRIFT, LOAD_SURFACE, LOAD_UNDERWATER, Commands
-from stommel.simulation.plant.actuators import interpolated
+from stommel.geometry.interpolation import interpolated
 from stommel.simulation.plant.parameters import (
     ALWAYS,
+    BATTERY,
     CLIMB,
     DIVE,
     DRIFTING,
@@ -35,7 +36,9 @@ def consume(plant: Plant, world: np.record, commands: Commands, t: float, step: 
         world.energy[i] += _power(plant.loads, i, commands, moving) * step
         total += world.energy[i]
     load(plant.battery, world, (total - world.energy_total) / step, total + plant.battery.self_discharge * t)
-    world.energy_total = total
+    heat = plant.battery.resistance * world.current * world.current * step
+    world.energy[BATTERY] += heat
+    world.energy_total = total + heat
 
 
 @inlined

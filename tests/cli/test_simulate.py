@@ -153,7 +153,7 @@ def test_interruption_leaves_no_file(stommel: Command, stommel_process: Command,
     # a goal that is months away, in an ocean without an edge
     long = plan.read_text().replace("duration_days = 0.05", "duration_days = 700")
     long = long.replace("latitude_deg = 28.4", "latitude_deg = 85.0").replace("east_china_sea", "still")
-    plan.write_text(long.replace('name = "a few dives"', 'name = "long"\nchanges = { "battery.capacity_ah" = 50000 }'))
+    plan.write_text(long.replace('name = "a few dives"', 'name = "long"\nchanges = { "battery.capacity_ah" = 5000 }'))
     running = subprocess.Popen(
         [PROGRAM, "simulate", plan, "--output", tmp_path / "m.nc"], stderr=subprocess.PIPE, stdout=subprocess.PIPE
     )

@@ -47,10 +47,13 @@ WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
     "budget": (("budget", "zju", "--apply", "mine.toml", "--plot", "b.PNG"), ["mine.toml", "b.PNG"]),
     "flight-table": (("flight-table", "zju", "--output", "f.toml"), ["f.toml"]),
     "simulate": (
-        ("simulate", "mission.toml", "--output", "m.nc", "--plots", "all"),
-        ["m.nc", *both("all", *PICTURES), "all/mission.html"],
+        ("simulate", "mission.toml", "--output", "m.nc", "--track", "t.KML", "--plots", "all"),
+        ["m.nc", "t.KML", *both("all", *PICTURES), "all/mission.html"],
     ),
-    "study": (("study", "study.toml", "--workers", "1", "--output", "s.nc"), ["s.nc"]),
+    "study": (
+        ("study", "study.toml", "--workers", "1", "--output", "s.nc", "--plots", "p"),
+        ["s.nc", *both("p", "runs")],
+    ),
     "vehicle new": (("vehicle", "new", "mine.toml"), ["mine.toml"]),
     "bench generate": (("bench", "generate", "zju", "--output", "new/log.csv"), ["new/log.csv", "new/log.toml"]),
     "bench analyse": (("bench", "analyse", "bench.csv", "--plots", "p"), both("p", "performance", "response")),
@@ -60,7 +63,13 @@ WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
 }
 """Every verb that can write, and the files that it then writes."""
 
-SAVE = {"--plot": (".png", ".svg", ".pdf"), "--plots": (), "--apply": (".toml",), "FILE": (".toml",)}
+SAVE = {
+    "--plot": (".png", ".svg", ".pdf"),
+    "--plots": (),
+    "--apply": (".toml",),
+    "--track": (".geojson", ".kml"),
+    "FILE": (".toml",),
+}
 SAVE_AS = {
     "design": (".html",),
     "simulate": (".nc",),
@@ -214,6 +223,10 @@ def test_a_path_of_several_lines_is_told_in_one(folder: Path) -> None:
 def test_two_outputs_of_one_name_are_refused(ask: Ask) -> None:
     with pytest.raises(OutputError, match=r"^--output m\.nc: is the folder of --plots as well$"):
         ask("simulate", "mission.toml", "--output", "m.nc", "--plots", "m.nc")
+    with pytest.raises(OutputError, match=r"^--track t\.kml: is the folder of --plots as well$"):
+        ask("simulate", "mission.toml", "--track", "t.kml", "--plots", "t.kml")
+    with pytest.raises(OutputError, match=r"^--output s\.nc: is the folder of --plots as well$"):
+        ask("study", "study.toml", "--output", "s.nc", "--plots", "s.nc")
 
 
 @pytest.mark.parametrize(

@@ -75,3 +75,9 @@ def refuse_existing(path: Path | None, force: bool) -> None:
     """Refuse to replace a file unless `force` allows it."""
     if path is not None and not force and path.exists():
         raise OutputError(f"{path}: already exists; --force replaces it")
+
+
+def refuse_same(option: str, path: Path | None, plots: Path | None) -> None:
+    """Refuse a file of `option` that is the folder of --plots as well."""
+    if path is not None and path == plots:
+        raise OutputError(f"{option} {path}: is the folder of --plots as well")

@@ -12,9 +12,8 @@ from stommel.cli.finish import finish
 from stommel.cli.numbers import seed_option
 from stommel.cli.options import JsonOption
 from stommel.cli.output import number, show_notes, show_table, show_values, show_warnings
-from stommel.cli.paths import PlotsOption, file_parser
+from stommel.cli.paths import PlotsOption, file_parser, refuse_same
 from stommel.cli.status import INTERRUPTED
-from stommel.errors import OutputError
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
@@ -67,8 +66,8 @@ def simulate(
         return
     if mission is None:
         raise typer.BadParameter("give a mission file or a shipped mission; --list shows these", param_hint="MISSION")
-    if output is not None and output == plots:
-        raise OutputError(f"--output {output}: is the folder of --plots as well")
+    refuse_same("--output", output, plots)
+    refuse_same("--track", track, plots)
     from stommel.simulation.results.summary import summary
     from stommel.simulation.scenario.loading import load_mission
     from stommel.simulation.scenario.remarks import remarks

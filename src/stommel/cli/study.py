@@ -12,7 +12,7 @@ from stommel.cli.finish import finish
 from stommel.cli.numbers import count_option
 from stommel.cli.options import JsonOption
 from stommel.cli.output import show_table
-from stommel.cli.paths import PlotsOption, parser_with
+from stommel.cli.paths import PlotsOption, parser_with, refuse_same
 from stommel.cli.status import INTERRUPTED
 from stommel.files.units import counted
 
@@ -69,6 +69,7 @@ def study(
 
     loaded = load_study(file)
     target = output if output is not None else _RESULT(f"{file.stem}.nc")
+    refuse_same("--output", target, plots)
     try:
         with _progress() as progress:
             done = run_study(loaded, target, workers=workers, scheduler=scheduler, restart=restart, progress=progress)

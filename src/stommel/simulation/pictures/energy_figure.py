@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLOURS = ("#0b62a4", "#c4501b", "#00805f", "#9c4f86", "#c98a00", "#5aa9d6", "#8c6b4f", "#8a93a0", "#3b4652")
+COLOURS = ("#0b62a4", "#c4501b", "#00805f", "#9c4f86", "#c98a00", "#5aa9d6", "#8c6b4f", "#8a93a0", "#b3a369", "#3b4652")
 """One for each of `DRAINS`."""
 _POINTS = 600
 _WATT_HOUR = 3600.0

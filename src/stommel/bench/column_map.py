@@ -2,13 +2,14 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from stommel.bench.failures import BenchFileError, BenchRequestError, bench_files
 from stommel.bench.quantities import QUANTITIES
 from stommel.errors import Problem
+from stommel.files.kinds import Flag, Format
 from stommel.files.opening import exists, require_regular
 from stommel.files.provenance import separate
 from stommel.files.sentences import validated
@@ -36,7 +37,7 @@ class Channel(MapTable):
     """Constant of the whole log, where no column holds it."""
     range: tuple[Number, Number] | None = None
     """Both ends of what the sensor can show, in its unit; readings that lie flat there are refused."""
-    setting: bool = False
+    setting: Flag = False
     """True: the value that was set, not a sensor; it may stand still."""
 
     @model_validator(mode="after")
@@ -96,7 +97,7 @@ class Generated(MapTable):
     """How the model made this log."""
 
     vehicle: str
-    seed: int
+    seed: Annotated[int, Field(strict=True, ge=0)]
     parameters: dict[str, Number]
     """Constants of the engine that were used, in SI units."""
 
@@ -104,7 +105,7 @@ class Generated(MapTable):
 class EngineLogMap(MapTable):
     """Description of an engine log."""
 
-    format: Literal[1] = 1
+    format: Format = 1
     origin: str = "measured"
     """Where the log comes from, in words; repeated in every result."""
     delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","

@@ -1,11 +1,12 @@
 """Description of a hull pressure test: columns, limits and the compliance of what is under pressure (TOML)."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
 from stommel.bench.column_map import MapTable, NotNegativeNumber, PositiveNumber
 from stommel.bench.quantities import QUANTITIES
+from stommel.files.kinds import Format
 
 
 class PressureColumn(MapTable):
@@ -93,7 +94,7 @@ class Chamber(MapTable):
 class HoldingDescription(MapTable):
     """Description of a hull pressure test."""
 
-    format: Literal[1] = 1
+    format: Format = 1
     title: str = "Hull pressure test"
     delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
     columns: HoldingColumns = HoldingColumns()

@@ -5,6 +5,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from stommel.files.fields import NotNegative, Positive, Table
+from stommel.files.kinds import Flag, Format
 
 Latitude = Annotated[float, Field(strict=True, ge=-90, le=90)]
 Longitude = Annotated[float, Field(strict=True, ge=-180, le=360)]
@@ -70,7 +71,7 @@ class Guidance(Table):
     """A waypoint is reached within this distance."""
     lookahead_m: Positive = 3000.0
     """How far ahead on the line between waypoints the vehicle aims."""
-    repeat: bool = False
+    repeat: Flag = False
     """Begin again with the first waypoint after the last."""
 
 
@@ -83,7 +84,7 @@ class Aborts(Table):
     """Too long without surfacing."""
     battery_share: Share = 0.02
     """The mission ends when no more than this part of the usable energy is left, by the vehicle's own account."""
-    leak: bool = True
+    leak: Flag = True
     """The mission ends when the leak detectors find water."""
     internal_pressure_kpa: Positive | None = None
     """The mission ends above this pressure in the hull: the vacuum is lost."""
@@ -146,7 +147,7 @@ class Sampling(Table):
 class Plan(Table):
     """A plan, as its file describes it; a vehicle needs nothing else to fly its mission."""
 
-    format: Literal[1] = 1
+    format: Format = 1
     name: Annotated[str, Field(min_length=1)]
     waypoints: tuple[Position, ...] = ()
     dives: Dives

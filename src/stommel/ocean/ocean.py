@@ -10,6 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.files.opening import exists
 from stommel.ocean import times
 from stommel.ocean.answers import DEEPEST, Region, Sample, Source, depth_refusal, refusal, sample_of
 from stommel.ocean.errors import LandError, OutsideOceanError, UnknownOceanError
@@ -182,11 +183,12 @@ class Ocean:
 
     def _second(self, climatology: "Ocean | Source", folder: Path | None) -> "Ocean":
         """Open the ocean behind this one."""
-        from stommel.ocean.analytic.catalogue import ANALYTIC  # noqa: PLC0415 - it imports geodesy
+        from stommel.ocean.analytic.catalogue import is_analytic  # noqa: PLC0415 - it imports geodesy
 
         if isinstance(climatology, Ocean):
             return climatology
-        if isinstance(climatology, str) and climatology in ANALYTIC:
+        beside = isinstance(climatology, str) and folder is not None and exists(folder / climatology)
+        if isinstance(climatology, str) and not beside and is_analytic(climatology):
             return Ocean.analytic(climatology)
         return Ocean.open(climatology, folder=folder, outside_time="hold", bounds=around(self.data))
 

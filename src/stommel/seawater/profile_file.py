@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from stommel.errors import FileError, Problem
 from stommel.files.delimited import Delimited, read_delimited
+from stommel.files.nearest import did_you_mean
 from stommel.files.sentences import shown
 from stommel.seawater import properties
 from stommel.seawater.stratification import Stratification
@@ -61,7 +62,8 @@ def _numbers(table: Delimited, columns: dict[str, str]) -> dict[str, NDArray[np.
     name, header = table.file, table.header
     unknown = sorted(set(columns) - set(KNOWN))
     if unknown:
-        raise FileError([Problem(name, unknown[0], f"columns: unknown name {unknown[0]}; known: {', '.join(KNOWN)}")])
+        text = f"columns: unknown name {unknown[0]}{did_you_mean(unknown[0], KNOWN)} known: {', '.join(KNOWN)}"
+        raise FileError([Problem(name, unknown[0], text)])
     absent = [f"{key} = {columns[key]!r}" for key in columns if columns[key] not in header]
     if absent:
         raise FileError([Problem(name, "", f"no column {absent[0]}; there are: {', '.join(header)}")])

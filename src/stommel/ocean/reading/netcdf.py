@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.files.nearest import did_you_mean
 from stommel.ocean import times as clock
 from stommel.ocean.answers import Region
 from stommel.ocean.errors import UnknownOceanError
@@ -74,7 +75,8 @@ def read_ocean(paths: Sequence[Path], reading: Reading) -> tuple[OceanGrid, dict
     """Read the grid of files and notes on what was found where."""
     unknown = sorted(set(reading.names) - set(OWN_NAMES))
     if unknown:
-        raise UnknownOceanError(f"names: unknown key {unknown[0]}; known: {', '.join(OWN_NAMES)}")
+        hint = did_you_mean(unknown[0], OWN_NAMES)
+        raise UnknownOceanError(f"names: unknown key {unknown[0]}{hint} known: {', '.join(OWN_NAMES)}")
     with opened(paths, reading.names) as files:
         return _read(files, reading)
 

@@ -5,6 +5,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from stommel.files.fields import Finite, NotNegative, Positive, Table
+from stommel.files.kinds import FileNames, Flag
 
 Share = Annotated[float, Field(strict=True, ge=0, le=1)]
 Triple = tuple[Finite, Finite, Finite]
@@ -122,7 +123,7 @@ class OceanChoice(Table):
 
     name: str | None = None
     """An analytic ocean; see `stommel ocean`."""
-    file: str | tuple[str, ...] | None = None
+    file: FileNames | None = None
     """A CF NetCDF file instead, several, or a pattern; or a profile (.csv) that stands everywhere."""
     outside: Policy = "error"
     """Beyond the data in space or time: stop, hold the nearest values, or go over to `climatology`."""
@@ -138,7 +139,7 @@ class OceanChoice(Table):
     """South, north, west and east of the region to read; all of the file if left out."""
     names: dict[str, str] = Field(default_factory=dict)
     """Names of the file's variables where their standard names do not tell."""
-    at_rest: bool = False
+    at_rest: Flag = False
     """Read no currents."""
     parameters: dict[str, Finite] = Field(default_factory=dict)
     """Numbers of an analytic ocean or of a profile's."""

@@ -5,6 +5,7 @@ from typing import Annotated, Self
 from pydantic import Field, model_validator
 
 from stommel.files.fields import Interval, NotNegative, Positive, Table, ordered
+from stommel.files.kinds import Flag
 
 Share = Annotated[float, Field(strict=True, ge=0, le=1)]
 Efficiency = Annotated[float, Field(strict=True, gt=0, le=1)]
@@ -97,7 +98,7 @@ class Brake(Table):
     """Power while its coil is fed."""
     release_ms: NotNegative
     """From feeding the coil until the shaft is free."""
-    normally_closed: bool = True
+    normally_closed: Flag = True
     """Whether it holds without power; otherwise it must be fed to hold."""
 
 

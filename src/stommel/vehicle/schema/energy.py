@@ -50,7 +50,7 @@ class EnergyPlan(Table):
     """Of the converters between the battery and the consumers whose supply is `regulated`."""
     surface_session_s: NotNegative
     """Time at the surface with the antenna out: position fix and radio."""
-    dives_per_surfacing: Annotated[int, Field(ge=1)] = 1
+    dives_per_surfacing: Annotated[int, Field(strict=True, ge=1)] = 1
     """Dives from one surfacing to the next; between them the vehicle turns at `upper_turn_m`."""
     upper_turn_m: NotNegative = 10.0
     """Depth of the upper turn of dives that do not surface."""

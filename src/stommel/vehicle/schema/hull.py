@@ -6,6 +6,7 @@ from typing import Annotated, Self
 from pydantic import Field, model_validator
 
 from stommel.files.fields import Finite, NotNegative, Positive, Table
+from stommel.files.kinds import Flag
 
 Fraction = Annotated[float, Field(strict=True, gt=0, le=1)]
 AtLeastOne = Annotated[float, Field(strict=True, ge=1, allow_inf_nan=False)]
@@ -93,7 +94,7 @@ class Bay(Table):
     """Forward end, forward of the centre of buoyancy."""
     to_m: Finite
     """Aft end."""
-    flooded: bool = False
+    flooded: Flag = False
     holds: tuple[str, ...] = ()
 
     @model_validator(mode="after")

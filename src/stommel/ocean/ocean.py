@@ -60,6 +60,7 @@ class Ocean:
         *,
         folder: Path | None = None,
         names: Mapping[str, str] | None = None,
+        units: Mapping[str, str] | None = None,
         outside: str = "error",
         outside_time: str | None = None,
         climatology: "Ocean | Source | None" = None,
@@ -87,6 +88,8 @@ class Ocean:
         names
             Names of the file's variables where `standard_name` does not tell: `temperature`, `salinity`, `current_x`,
             `current_y`, `bottom`, `time`, `depth`, `latitude`, `longitude`, `angle`. For a profile, of its columns.
+        units
+            Units of the file's variables where the file leaves them out or has them wrong, as `{"salinity": "psu"}`.
         outside
             Beyond the data: "error" refuses, "hold" keeps the nearest values, "climatology" goes over to
             `climatology`, or without one to the mean of the file.
@@ -122,8 +125,8 @@ class Ocean:
         policy(outside)  # a wrong word is said before a large file is read
         at_times = policy(outside if outside_time is None else outside_time, "outside_time")
         found = open_ocean(
-            path, folder, dict(names or {}), bounds, between, yearly, dict(parameters or {}), at_rest=at_rest,
-            mean_slot=at_times == CLIMATOLOGY and climatology is None, beyond=at_times != ERROR,
+            path, folder, dict(names or {}), dict(units or {}), bounds, between, yearly, dict(parameters or {}),
+            at_rest=at_rest, mean_slot=at_times == CLIMATOLOGY and climatology is None, beyond=at_times != ERROR,
         )  # fmt: skip
         return cls(*found).with_outside(
             outside, outside_time, climatology=climatology, blend_km=blend_km, blend_hours=blend_hours, folder=folder

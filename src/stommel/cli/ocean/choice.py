@@ -27,9 +27,9 @@ def open_ocean(given: list[str], choice: dict[str, Any], policies: dict[str, Any
     if given[0] in ANALYTIC:
         if len(given) > 1:
             raise OceanOptionError(f"{given[0]}: an analytic ocean stands alone; {given[1]} is too much")
-        unfit = [key for key in ("names", "bounds", "between", "at_rest") if choice[key]]
+        unfit = [key for key in ("names", "units", "bounds", "between", "at_rest") if choice[key]]
         if unfit:
-            option = "--" + unfit[0].removesuffix("s" if unfit[0] == "names" else "").replace("_", "-")
+            option = "--" + unfit[0].removesuffix("s" if unfit[0] in ("names", "units") else "").replace("_", "-")
             raise OceanOptionError(f"{option}: {given[0]} is an analytic ocean; only a file has this option")
         return Ocean.analytic(given[0], **choice["parameters"]).with_outside(**policies)
     if len(given) == 1:

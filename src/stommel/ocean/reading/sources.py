@@ -52,10 +52,10 @@ def _matching(entry: str, folder: Path | None) -> list[Path]:
 
 
 @contextmanager
-def opened(paths: Sequence[Path], names: Mapping[str, str]) -> Iterator[list[File]]:
-    """Open files with the names that the user gave their variables, and close them at the end."""
+def opened(paths: Sequence[Path], names: Mapping[str, str], units: Mapping[str, str]) -> Iterator[list[File]]:
+    """Open files with the names and units that the user gave their variables, and close them at the end."""
     with ExitStack() as stack:
-        yield [File(str(path), stack.enter_context(_open(path)), names) for path in paths]
+        yield [File(str(path), stack.enter_context(_open(path)), names, units) for path in paths]
 
 
 def _open(path: Path) -> xr.Dataset:

@@ -139,6 +139,8 @@ class OceanChoice(Table):
     """South, north, west and east of the region to read; all of the file if left out."""
     names: dict[str, str] = Field(default_factory=dict)
     """Names of the file's variables where their standard names do not tell."""
+    units: dict[str, str] = Field(default_factory=dict)
+    """Units of the file's variables where the file does not tell."""
     at_rest: Flag = False
     """Read no currents."""
     parameters: dict[str, Finite] = Field(default_factory=dict)
@@ -148,7 +150,7 @@ class OceanChoice(Table):
     def _one_ocean(self) -> Self:
         if (self.name is None) == (self.file is None):
             raise ValueError("ocean: give either name or file")
-        for_files = {"bounds_deg": self.bounds_deg, "names": self.names, "at_rest": self.at_rest}
+        for_files = {"bounds_deg": self.bounds_deg, "names": self.names, "units": self.units, "at_rest": self.at_rest}
         for key, value in for_files.items():
             if self.name is not None and value:
                 raise ValueError(f"ocean.{key}: is for an ocean from a file; ocean.name = {self.name!r} is analytic")

@@ -79,7 +79,7 @@ def _columns(nodes: Nodes, j: Indices, wanted: Mask) -> Indices:
 
 def _period(nodes: Nodes, j: Indices) -> int | None:
     """Columns after which the grid begins again; none where it ends."""
-    columns = nodes.latitude.shape[1]
+    columns = int(nodes.latitude.shape[1])
     places = _places(nodes, j)
     for overlap in range(min(_MOST_OVERLAP, columns // 3), 0, -1):
         if _greatest(places[:, :, columns - overlap :] - places[:, :, :overlap]) < _SAME_PLACE:
@@ -89,7 +89,7 @@ def _period(nodes: Nodes, j: Indices) -> int | None:
     seam = np.linalg.norm(places[:, :, 0] - places[:, :, -1], axis=0)
     beside = np.linalg.norm(places[:, :, [1, -1]] - places[:, :, [0, -2]], axis=0).max(axis=1)
     known = np.isfinite(seam) & np.isfinite(beside)
-    close = known.any() and bool(np.all(seam[known] <= _WIDEST_SEAM * beside[known]))
+    close = bool(known.any()) and bool(np.all(seam[known] <= _WIDEST_SEAM * beside[known]))
     return columns if close and _goes_around(nodes, j) else None
 
 

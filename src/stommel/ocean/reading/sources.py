@@ -11,9 +11,10 @@ from typing import NoReturn
 import xarray as xr
 
 from stommel.errors import FileError, Problem
-from stommel.files.opening import exists, require_regular
+from stommel.files.opening import exists, refuse_address, require_regular
 from stommel.ocean.answers import Source
 from stommel.ocean.reading.classic import expected_length
+from stommel.ocean.reading.stores import REASONS, first_line, open_store
 from stommel.ocean.reading.variables import File
 
 
@@ -28,6 +29,7 @@ def paths_of(source: Source, folder: Path | None) -> list[Path]:
     given = [source] if isinstance(source, str | Path) else list(source)
     found: list[Path] = []
     for entry in map(str, given):
+        refuse_address(entry)
         found += _matching(entry, folder)
     if not found:
         raise FileError([Problem("ocean", "", "no file is named")])
@@ -59,6 +61,9 @@ def opened(paths: Sequence[Path], names: Mapping[str, str], units: Mapping[str, 
 
 
 def _open(path: Path) -> xr.Dataset:
+    store = open_store(path)
+    if store is not None:
+        return store
     if os.path.isdir(path):  # noqa: PTH112 - Path.is_dir raises for a name that is too long
         _refuse(path, f"cannot be read: it is a folder; name its files, as {path / '*.nc'}")
     length = require_regular(path)
@@ -69,9 +74,8 @@ def _open(path: Path) -> xr.Dataset:
         _refuse(path, f"is damaged or was cut short: it has {length} bytes and should have {expected}")
     try:
         return xr.open_dataset(path, engine="netcdf4", decode_cf=False, cache=False)
-    except (OSError, ValueError, RuntimeError, AttributeError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or (str(error).splitlines() or [type(error).__name__])[0]
-        _refuse(path, f"cannot be read as NetCDF: {reason}")
+    except REASONS as error:
+        _refuse(path, f"cannot be read as NetCDF: {first_line(error)}")
 
 
 def _refuse(path: Path, message: str) -> NoReturn:

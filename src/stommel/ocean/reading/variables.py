@@ -1,5 +1,6 @@
 """Finding the variables of a CF file by what they are, and reading their numbers in SI units."""
 
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import prod
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from stommel.errors import FileError, Problem
 from stommel.files.sentences import shown
+from stommel.ocean.reading.stores import REASONS, first_line
 from stommel.ocean.reading.tally import Tally, share
 from stommel.ocean.reading.units import UNITS, plain
 from stommel.ocean.reading.unpacking import ValidRange, unpacked, valid_ranges
@@ -182,9 +184,10 @@ class File:
         self._require_size(variable, array, _MOST_NUMBERS if values is None else _MOST_AT_ONCE)
         try:
             return np.asarray(array.values)
-        except (OSError, RuntimeError, ValueError, MemoryError) as error:
-            reason = " ".join(str(error).split()) or type(error).__name__
-            self.refuse(variable, f"{variable} cannot be read ({reason}); the file is damaged or was cut short")
+        except (*REASONS, MemoryError, zlib.error) as error:
+            self.refuse(
+                variable, f"{variable} cannot be read ({first_line(error)}); the file is damaged or was cut short"
+            )
 
     def require_count(self, variable: str, count: int, what: str) -> None:
         """Refuse more nodes or times than are read of one file, before memory is asked for them."""

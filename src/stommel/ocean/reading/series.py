@@ -123,7 +123,9 @@ class Series:
         found = numbers_at(layout, quantity, slot, j, i)
         if not np.isfinite(found).any():
             when = f" at {clock.text(float(self.times[n]))}" if layout.time is not None else ""
-            layout.file.refuse(layout.variable, f"{layout.variable} has no number{when}: all values are missing")
+            said = layout.file.tally.told().get(layout.variable)
+            why = "all values are missing" if said is None else f"all values are missing, {said}"
+            layout.file.refuse(layout.variable, f"{layout.variable} has no number{when}: {why}")
         return found
 
 

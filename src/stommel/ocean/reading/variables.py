@@ -1,7 +1,7 @@
 """Finding the variables of a CF file by what they are, and reading their numbers in SI units."""
 
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import prod
 from typing import Any, NoReturn
@@ -130,7 +130,8 @@ class File:
             self.refuse(variable, f"{variable} holds {raw.dtype}; must hold numbers")
         try:
             stored, found = unpacked(raw, self.data[variable].attrs)
-            self._mask_invalid(variable, stored, found)
+            sensible = [(end - summand) / factor for end in _SENSIBLE.get(quantity, (-np.inf, np.inf))]
+            self._mask_invalid(variable, stored, found, sensible)
         except (ValueError, TypeError, OverflowError) as error:
             self.refuse(variable, f"{variable} cannot be unpacked: {' '.join(str(error).split())}")
         found = np.asarray(found * factor + summand)
@@ -138,13 +139,18 @@ class File:
             self._require_sensible(variable, quantity, found)
         return found
 
-    def _mask_invalid(self, variable: str, stored: NDArray[Any], found: Array) -> None:
-        """Leave out what the file itself calls invalid; the first numbers that are read settle in which units."""
+    def _mask_invalid(self, variable: str, stored: NDArray[Any], found: Array, sensible: Sequence[float]) -> None:
+        """Leave out what the file itself calls invalid.
+
+        The first numbers that are read settle in which units it does: the likely ones, unless these leave more numbers
+        that no sea has (`sensible`, as unpacked), or leave less than half and the others do not.
+        """
         if variable not in self._ranges:
-            ways = valid_ranges(self.data[variable].attrs, stored.dtype)
-            self._ranges[variable] = min(
-                ways, key=lambda way: round(float(way.masked(stored, found).mean())), default=None
-            )
+            ways = valid_ranges(self.data[variable].attrs, self.data[variable].dtype)
+            strange = (found < sensible[0]) | (found > sensible[1])
+            masks = [way.masked(stored, found) for way in ways]
+            cost = [(int((strange & ~mask).sum()), bool(mask.sum() > 0.5 * np.isfinite(found).sum())) for mask in masks]
+            self._ranges[variable] = ways[cost.index(min(cost))] if ways else None
         way = self._ranges[variable]
         if way is None:
             return

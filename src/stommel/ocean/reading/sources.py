@@ -13,7 +13,8 @@ import xarray as xr
 from stommel.errors import FileError, Problem
 from stommel.files.opening import exists, refuse_address, require_regular
 from stommel.ocean.answers import Source
-from stommel.ocean.reading.classic import expected_length
+from stommel.ocean.reading.classic import HeaderDamageError, expected_length
+from stommel.ocean.reading.spelling import require_spelling
 from stommel.ocean.reading.stores import REASONS, first_line, open_store
 from stommel.ocean.reading.variables import File
 
@@ -57,7 +58,10 @@ def _matching(entry: str, folder: Path | None) -> list[Path]:
 def opened(paths: Sequence[Path], names: Mapping[str, str], units: Mapping[str, str]) -> Iterator[list[File]]:
     """Open files with the names and units that the user gave their variables, and close them at the end."""
     with ExitStack() as stack:
-        yield [File(str(path), stack.enter_context(_open(path)), names, units) for path in paths]
+        files = [File(str(path), stack.enter_context(_open(path)), names, units) for path in paths]
+        for file in files:
+            require_spelling(file)
+        yield files
 
 
 def _open(path: Path) -> xr.Dataset:
@@ -69,7 +73,10 @@ def _open(path: Path) -> xr.Dataset:
     length = require_regular(path)
     if not os.access(path, os.R_OK):
         _refuse(path, f"cannot be read: {os.strerror(errno.EACCES)}")
-    expected = expected_length(path)
+    try:
+        expected = expected_length(path)
+    except HeaderDamageError as error:
+        _refuse(path, f"is damaged: by its header {error}")
     if expected is not None and length < expected:
         _refuse(path, f"is damaged or was cut short: it has {length} bytes and should have {expected}")
     try:

@@ -61,12 +61,6 @@ _MOST_NUMBERS = 4e7
 _MOST_AT_ONCE = 5e8
 """The most numbers that are read at once, a piece in which a file is packed among them."""
 
-_ATTRIBUTES = (
-    "_FillValue", "_Unsigned", "add_offset", "calendar", "missing_value", "positive", "scale_factor", "standard_name",
-    "units", "valid_max", "valid_min", "valid_range",
-)  # fmt: skip
-"""Attributes that change what numbers mean."""
-
 
 @dataclass(frozen=True)
 class File:
@@ -124,7 +118,6 @@ class File:
     def numbers(self, variable: str, quantity: str, values: xr.DataArray | None = None) -> Array:
         """Read a variable, or a part of it: unpacked at double precision, nan where nothing is, in SI units."""
         factor, summand = self._unit(variable, quantity)
-        self._require_spelling(variable)
         raw = self.raw(variable, values)
         if not np.issubdtype(raw.dtype, np.number):
             self.refuse(variable, f"{variable} holds {raw.dtype}; must hold numbers")
@@ -174,15 +167,6 @@ class File:
         ends = f"a little beyond {low:g} to {high:g}, and set to the end"
         self.tally.add(variable, ends, int(outside.sum()), count)
         np.clip(found, low, high, out=found, where=outside)
-
-    def _require_spelling(self, variable: str) -> None:
-        """Refuse an attribute that is one letter off one with a meaning: without it all numbers mean something else."""
-        for name in map(str, self.data[variable].attrs):
-            for known in _ATTRIBUTES:
-                if len(name) == len(known) and sum(a != b for a, b in zip(name, known, strict=True)) == 1:
-                    self.refuse(
-                        variable, f"{variable} has an attribute {name!r}, one letter off {known}; the file is damaged"
-                    )
 
     def raw(self, variable: str, values: xr.DataArray | None = None) -> NDArray[Any]:
         """Read a variable, or a part of it, as it is stored."""

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from stommel.errors import FileError
+from stommel.errors import FileError, StommelError
 from stommel.ocean import Ocean
+from tests.ocean.conftest import Writer
 from tests.ocean.test_damaged_files import refused
 
 START = "2020-03-01T00:00:00Z"
@@ -131,3 +132,13 @@ def test_currents_along_the_axes_of_a_grid_with_holes(tmp_path: Path) -> None:
     ocean = Ocean.open(tmp_path / "sea.nc", bounds=(-0.5, 2.0, 149.0, 151.5))
     found = ocean.at(START, float(latitude[5, 8]), float(longitude[5, 8]) - 1e-6)
     assert found.current_north / found.current_east == pytest.approx(np.tan(turn), rel=1e-2)
+
+
+def test_an_extent_across_the_date_line_has_one_convention(sea_file: Writer) -> None:
+    """West is the greater then, as in the boxes of GeoJSON; no longitude is beyond 180."""
+    ocean = Ocean.open(sea_file())
+    assert ocean.summary()["longitude_deg"] == pytest.approx([177.0, -178.0])
+    with pytest.raises(StommelError, match="longitude 177 to -178"):
+        ocean.at(START, 12.0, 150.0)
+    second = Ocean.open(sea_file(), outside="climatology", climatology=str(sea_file()))
+    assert second.at(START, 12.0, -179.5).temperature == pytest.approx(ocean.at(START, 12.0, -179.5).temperature)

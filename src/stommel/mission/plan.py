@@ -2,13 +2,15 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from stommel.files.fields import NotNegative, Positive, Table
 from stommel.files.kinds import Flag, Format
+from stommel.geometry.longitudes import wrapped_deg
 
 Latitude = Annotated[float, Field(strict=True, ge=-90, le=90)]
-Longitude = Annotated[float, Field(strict=True, ge=-180, le=360)]
+Longitude = Annotated[float, Field(strict=True, ge=-180, le=360), AfterValidator(wrapped_deg)]
+"""Written to 180 or to 360; held, as every output has it, above -180 and up to 180."""
 Share = Annotated[float, Field(strict=True, ge=0, le=1)]
 PitchAngle = Annotated[float, Field(strict=True, ge=5, le=60)]
 

@@ -80,7 +80,8 @@ def _open(path: Path) -> xr.Dataset:
     if expected is not None and length < expected:
         _refuse(path, f"is damaged or was cut short: it has {length} bytes and should have {expected}")
     try:
-        return xr.open_dataset(path, engine="netcdf4", decode_cf=False, cache=False)
+        # indexes would read coordinates before their size has been looked at
+        return xr.open_dataset(path, engine="netcdf4", decode_cf=False, cache=False, create_default_indexes=False)
     except REASONS as error:
         _refuse(path, f"cannot be read as NetCDF: {first_line(error)}")
 

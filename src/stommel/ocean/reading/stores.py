@@ -91,8 +91,9 @@ def _opened(path: Path, store: str, **options: Any) -> xr.Dataset:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # that its metadata are not in one place
             return xr.open_dataset(
-                store, engine="zarr", decode_cf=False, cache=False, chunks=None, backend_kwargs=options or None
-            )
+                store, engine="zarr", decode_cf=False, cache=False, chunks=None, create_default_indexes=False,
+                backend_kwargs=options or None,
+            )  # fmt: skip
     except REASONS as error:
         raise _unusable(path, f"cannot be read as Zarr: {first_line(error)}") from None
 

@@ -31,7 +31,7 @@ from tests.support.command import PROGRAM, Command
         (("ocean", "show", "gyre", "--set", "speed=1"), "did you mean speed_m_s?"),
         (("ocean", "show", "gyre", "--set", "speed_m_s=fast"), "speed_m_s = 'fast': must be a number"),
         (("ocean", "show", "x.nc", "--name", "temprature=T"), "did you mean temperature?"),
-        (("ocean", "show", "x.nc", "--unit", "salt=psu"), "unit"),
+        (("ocean", "show", "x.nc", "--unit", "salt=psu"), "units: unknown key salt"),
         (("root-locus", "zju", "--over", "wing.lift_per_rad_kg", "--from", "1", "--to", "2"), "wing.lift_per_rad_kg_m"),
         (("hull", "zju", "--material", "alumnia"), "did you mean alumina?"),
     ],
@@ -72,7 +72,7 @@ def test_completion_is_installed_in_one_line(tmp_path: Path) -> None:
     done = completed(tmp_path, "--install-completion")
     assert (done.returncode, done.stderr) == (0, "")
     assert len(done.stdout.splitlines()) == 1
-    assert (tmp_path / ".bash_completions" / "stommel.sh").is_file()
+    assert len(list((tmp_path / ".bash_completions").iterdir())) == 1
 
 
 def test_completion_that_cannot_be_installed_is_one_line(tmp_path: Path) -> None:

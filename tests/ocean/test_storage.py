@@ -11,8 +11,11 @@ import xarray as xr
 
 from stommel.errors import FileError, StommelError
 from stommel.ocean import Ocean
+from stommel.simulation.scenario.loading import mission_from
 from tests.ocean.conftest import Writer, regular_sea
 from tests.ocean.test_damaged_files import refused
+from tests.simulation.conftest import mission_document
+from tests.support.command import Command
 
 START = "2020-03-01T00:00:00Z"
 SCALE, OFFSET = 0.0005, 10.0
@@ -207,3 +210,16 @@ def test_an_error_names_its_file(sea_file: Writer) -> None:
     with pytest.raises(FileError) as error:
         Ocean.open(sea_file(lambda data: data.to.attrs.update(scale_factor=0.0)))
     assert error.value.problems[0].key == "to"
+
+
+def test_the_command_and_a_mission_say_units_too(sea_file: Writer, stommel: Command) -> None:
+    path = sea_file(lambda data: data.so.attrs.pop("units") and None)
+    assert stommel("ocean", "show", path).status == 2
+    found = stommel("ocean", "show", path, "--unit", "salinity=psu", "--json")
+    assert found.json["absolute_salinity_g_kg"][0] > 30.0
+    place = {"latitude_deg": 13.0, "longitude_deg": 179.0}
+    document = mission_document(
+        ocean={"file": path.name, "units": {"salinity": "psu"}}, start=place, waypoints=[place],
+        start_time="2020-03-01T00:00:00Z", duration_days=0.1,
+    )  # fmt: skip
+    assert mission_from(document, "test.toml", path.parent).ocean.notes["salinity"].startswith("so")

@@ -185,7 +185,10 @@ def test_density_of_both_oceans_is_within_the_table(sea_file: Writer) -> None:
     ("options", "words"),
     [
         ({"climatology": "two_layer"}, ["climatology", 'outside_time = "climatology"']),
-        ({"outside": "climatology", "climatology": "atlantis"}, ["atlantis: cannot be read: No such file"]),
+        (
+            {"outside": "climatology", "climatology": "atlantis"},
+            ["ocean 'atlantis' is neither an analytic ocean nor a file"],
+        ),
         ({"outside": "climatology", "blend_km": -1.0}, ["blend_km = -1"]),
         ({"outside": "climatology", "blend_hours": float("nan")}, ["blend_hours = nan"]),
         ({"outside_time": "zero"}, ["outside_time = 'zero'", "error, hold, climatology"]),

@@ -77,3 +77,38 @@ def test_what_is_wrong_is_said(tmp_path: Path, text: str, columns: dict[str, str
 def test_no_file(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"nothing\.csv: cannot be read: No such file or directory$"):
         read_stratification(tmp_path / "nothing.csv")
+
+
+@pytest.mark.parametrize(
+    ("column", "cell", "said"),
+    [
+        ("temperature_c", "-9.990e-29", "instrument writes this for a bad reading"),
+        ("salinity_psu", "-9.99e-29", "instrument writes this for a bad reading"),
+        ("salinity_psu", "1e-30", "instrument writes this for a bad reading"),
+        ("temperature_c", "-99.9", "must be between -5 and 42"),
+        ("salinity_psu", "nan", "must be between 0 and 42"),
+        ("temperature_c", "", "must be a number"),
+        ("temperature_c", "1_2", "must be a number"),
+        ("depth_m", "2026-07-01", "must be a number"),
+    ],
+)
+def test_what_an_instrument_marks_is_refused_by_its_row(tmp_path: Path, column: str, cell: str, said: str) -> None:
+    """A temperature of -9.99e-29 is within the range of water. Row 5 of the file, as an editor counts."""
+    rows = [{"depth_m": str(10 * k), "temperature_c": "12", "salinity_psu": "35"} for k in range(5)]
+    rows[2][column] = cell
+    lines = ["# a cast", ",".join(rows[0]), *(",".join(row.values()) for row in rows)]
+    path = tmp_path / "cast.csv"
+    path.write_text("\n".join(lines))
+    with pytest.raises(FileError) as refused:
+        read_stratification(path)
+    text = str(refused.value)
+    assert f"row 5: {column} = " in text
+    assert said in text
+
+
+@pytest.mark.parametrize(("mark", "name"), [(";", "semicolons"), ("\t", "tabs")])
+def test_another_delimiter_is_named(tmp_path: Path, mark: str, name: str) -> None:
+    path = tmp_path / "cast.csv"
+    path.write_text(mark.join(("depth_m", "density_kg_m3")) + "\n" + mark.join(("0", "1020")) + "\n")
+    with pytest.raises(FileError, match=rf"cast\.csv: is delimited by {name}; must be by commas"):
+        read_stratification(path)

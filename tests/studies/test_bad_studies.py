@@ -89,6 +89,42 @@ def test_scheduler_that_does_not_answer(folder: Path, write: Write) -> None:
         next(flights)
 
 
+@pytest.mark.parametrize("scheme", ["tcp", "tls"])
+def test_what_answers_and_is_no_scheduler_is_one_line(folder: Path, write: Write, scheme: str) -> None:
+    """A web server's port by mistake: no traceback of Dask, at once or at the end of the process."""
+    import socket
+    import threading
+
+    pytest.importorskip("distributed", reason="needs the extra cluster")
+
+    def answer(end: socket.socket) -> None:
+        with end:
+            end.recv(100)
+            end.sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n" * 40)
+
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+
+        def serve() -> None:
+            while True:
+                try:
+                    threading.Thread(target=answer, args=(server.accept()[0],), daemon=True).start()
+                except OSError:
+                    return
+
+        threading.Thread(target=serve, daemon=True).start()
+        study = write('kind = "monte_carlo"\nruns = 1\n' + UNIFORM)
+        address = f"{scheme}://127.0.0.1:{port}"
+        done = subprocess.run(
+            [PROGRAM, "study", study, "--scheduler", address], cwd=folder, capture_output=True, text=True, check=False,
+            timeout=120,
+        )  # fmt: skip
+        server.shutdown(socket.SHUT_RDWR)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert len(done.stderr.splitlines()) == 1, done.stderr
+    assert done.stderr.startswith(f"error: --scheduler {address}: cannot be reached: ")
+
+
 def test_unknown_output_is_found_with_the_first_run(folder: Path, write: Write) -> None:
     study = write('kind = "monte_carlo"\nruns = 1\noutputs = ["fuel"]\n' + UNIFORM)
     message = refused(folder, study, "--workers", 1)

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -10,6 +10,7 @@ from stommel.bench.failures import BenchFileError, BenchRequestError, bench_file
 from stommel.bench.quantities import QUANTITIES
 from stommel.errors import Problem
 from stommel.files.fields import Name
+from stommel.files.kinds import Flag, Format
 from stommel.files.opening import exists, require_regular
 from stommel.files.provenance import separate
 from stommel.files.ranges import GREATEST_SEED, between
@@ -41,7 +42,7 @@ class Channel(MapTable):
     """Constant of the whole log, where no column holds it."""
     range: tuple[Number, Number] | None = None
     """Both ends of what the sensor can show, in its unit; readings that lie flat there are refused."""
-    setting: bool = False
+    setting: Flag = False
     """True: the value that was set, not a sensor; it may stand still."""
 
     @model_validator(mode="after")
@@ -109,7 +110,7 @@ class Generated(MapTable):
 class EngineLogMap(MapTable):
     """Description of an engine log."""
 
-    format: Literal[1] = 1
+    format: Format = 1
     origin: Annotated[str, Field(max_length=400)] = "measured"
     """Where the log comes from, in words; repeated in every result."""
     delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","

@@ -13,7 +13,7 @@ from stommel.bench.failures import bench_files, refuse
 from stommel.bench.log_checks import check_run
 from stommel.bench.quantities import MARKER, QUANTITIES
 from stommel.bench.raw_channel import RawChannel
-from stommel.files.delimited import Delimited, read_delimited
+from stommel.files.delimited import Delimited, number_in, read_delimited
 
 Series = NDArray[np.float64]
 
@@ -137,16 +137,15 @@ def _channel(table: Delimited, quantity: str, channel: Channel) -> RawChannel:
 
 
 def _number(file: str, column: str, cell: str, line: int, channel: Channel) -> float:
-    try:
-        value = float(cell)
-    except ValueError:
+    value = number_in(cell)
+    if value is None:
         if cell == "":
-            raise refuse(file, column, "empty cell; every reading must be there", line) from None
+            raise refuse(file, column, "empty cell; every reading must be there", line)
         number, _, unit = cell.partition(" ")
         if unit and number.replace(".", "").replace("-", "").isdigit():
             text = f"{cell!r}: a cell with a unit of its own; all cells must be plain numbers in {channel.unit}"
-            raise refuse(file, column, text + (" (mixed units)" if unit != channel.unit else ""), line) from None
-        raise refuse(file, column, f"{cell!r} is not a number", line) from None
+            raise refuse(file, column, text + (" (mixed units)" if unit != channel.unit else ""), line)
+        raise refuse(file, column, f"{cell!r} is not a number", line)
     if not isfinite(value):
         raise refuse(file, column, f"{cell!r} is not a finite number", line)
     return value

@@ -9,7 +9,7 @@ from typing import Any
 
 from stommel.bench.failures import bench_files, refuse
 from stommel.bench.holding_description import HoldingDescription, PressureColumn
-from stommel.files.delimited import Delimited, read_delimited
+from stommel.files.delimited import Delimited, number_in, read_delimited
 from stommel.files.opening import exists, require_regular
 from stommel.files.provenance import Provenance, separate
 from stommel.files.sentences import validated
@@ -165,10 +165,9 @@ def _pressures(table: Delimited, column: PressureColumn) -> list[float]:
     """Gauge pressures [Pa]."""
     found = []
     for cell, line in zip(table.cells(column.column), table.lines, strict=True):
-        try:
-            value = float(cell)
-        except ValueError:
-            raise refuse(table.file, column.column, f"{cell!r} is not a number in {column.unit}", line) from None
+        value = number_in(cell)
+        if value is None:
+            raise refuse(table.file, column.column, f"{cell!r} is not a number in {column.unit}", line)
         if not isfinite(value) or not 0.0 < value * column.factor <= 150e6:
             limit = 150e6 / column.factor
             raise refuse(

@@ -1,12 +1,13 @@
 """Description of a hull pressure test: columns, limits and the compliance of what is under pressure (TOML)."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
 from stommel.bench.column_map import MapTable
 from stommel.bench.quantities import QUANTITIES
 from stommel.files.fields import Name
+from stommel.files.kinds import Format
 from stommel.files.ranges import Compressibility, Pressure, between
 
 
@@ -95,7 +96,7 @@ class Chamber(MapTable):
 class HoldingDescription(MapTable):
     """Description of a hull pressure test."""
 
-    format: Literal[1] = 1
+    format: Format = 1
     title: Name = "Hull pressure test"
     delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
     columns: HoldingColumns = HoldingColumns()

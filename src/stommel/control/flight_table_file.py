@@ -15,6 +15,7 @@ from pydantic import Field, model_validator
 from stommel.control.flight_table import FlightTable
 from stommel.errors import FileError, Problem
 from stommel.files.fields import Table
+from stommel.files.kinds import Format
 from stommel.files.ranges import between
 from stommel.files.toml_reader import read_table
 from stommel.files.whole import write_whole
@@ -55,7 +56,7 @@ class _Way(Table):
 class _FlightTableFile(Table):
     """A flight table, as its file describes it."""
 
-    format: Literal[1]
+    format: Format
     kind: Literal["flight table"]
     vehicle: Annotated[str, Field(min_length=1)]
     vehicle_sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")]

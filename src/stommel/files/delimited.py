@@ -7,6 +7,8 @@ from pathlib import Path
 from stommel.errors import FileError, Problem
 from stommel.files.opening import TABLE_MIB, read_text
 
+_NAMES = {",": "commas", ";": "semicolons", "\t": "tabs"}
+
 
 @dataclass(frozen=True)
 class Delimited:
@@ -34,6 +36,14 @@ class Delimited:
         return [row[at] for row in self.rows]
 
 
+def number_in(cell: str) -> float | None:
+    """Number that a cell is, finite or not; None where it is none, as 1_000 and an empty cell."""
+    try:
+        return None if "_" in cell else float(cell)
+    except ValueError:
+        return None
+
+
 def read_delimited(path: str | Path, delimiter: str = ",") -> Delimited:
     """Read a table with one line of column names; blank lines and lines that begin with # are no rows.
 
@@ -55,6 +65,10 @@ def read_delimited(path: str | Path, delimiter: str = ",") -> Delimited:
     lines = tuple(number for number, _ in content[1:])
     if len(rows) != len(lines):
         raise _refused(name, "", "has a quoted cell that runs over the end of its line")
+    others = [mark for mark in ";\t," if mark != delimiter and mark in header[0]]
+    if len(header) == 1 and others:
+        wrong, right = (_NAMES.get(mark, mark) for mark in (others[0], delimiter))
+        raise _refused(name, "", f"is delimited by {wrong}; must be by {right}")
     twice = [column for k, column in enumerate(header) if column in header[:k]]
     if twice:
         raise _refused(name, twice[0], f"column {twice[0]!r}: stands twice in the line of column names")

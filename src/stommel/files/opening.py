@@ -6,6 +6,7 @@ ever, and a device like /dev/zero never ends.
 
 import codecs
 import os
+import re
 import stat
 from pathlib import Path
 
@@ -16,6 +17,8 @@ TOML_MIB = 1
 TABLE_MIB = 64
 """The most that a table of numbers may have, a profile or the log of a test: about a million rows."""
 
+_ADDRESS = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):/")
+"""How an address begins; Path leaves one of its slashes."""
 _MIB = 1 << 20
 _LONGEST_NAME = 255
 """Bytes of a name on common file systems."""
@@ -46,6 +49,23 @@ def beside(folder: Path, name: str) -> str | Path:
     return path if stands or missing else name
 
 
+def refuse_address(path: str | Path) -> None:
+    """Refuse an address on the network, which would else be taken for the path of a file that is not there.
+
+    Raises
+    ------
+    FileError
+        It is one; the message says what to do.
+    """
+    found = _ADDRESS.match(str(path))
+    if found is None:
+        return
+    name = str(path) if "://" in str(path) else str(path).replace(":/", "://", 1)
+    if found[1].lower() == "file":
+        raise unreadable(name, "it is an address; give the path alone")
+    raise unreadable(name, "it is an address on the network, and only files are read; fetch it first and give the file")
+
+
 def require_regular(path: str | Path) -> int:
     """Return the size of a regular file [bytes] without opening it.
 
@@ -54,6 +74,7 @@ def require_regular(path: str | Path) -> int:
     FileError
         There is none, or something else stands there: a folder, a pipe, a device.
     """
+    refuse_address(path)
     if str(path) in ("", "."):
         raise unreadable(".", "it is a folder, the one that you are in")
     try:

@@ -1,6 +1,6 @@
 """Validates what a file says; errors are sentences that name the key, the value and what is allowed."""
 
-import difflib
+import re
 from collections.abc import Iterator, Sequence
 from typing import Any, TypeVar, get_args
 
@@ -9,6 +9,8 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from stommel.errors import FileError, Problem
+from stommel.files.kinds import OWN_WORDS
+from stommel.files.nearest import nearest
 from stommel.files.ranges import OUT_OF_RANGE, ZeroOr
 from stommel.files.units import unit_of
 
@@ -22,19 +24,26 @@ _RANGES = {
 }
 
 
+_PATTERNS = {
+    r"^[A-Za-z]\w*$": "must begin with a letter, and go on with letters, digits and _",
+    "^[A-Za-z][A-Za-z0-9_-]*$": "must begin with a letter, and go on with letters, digits, _ and -",
+    "^[0-9a-f]{64}$": "must be a SHA-256 digest, 64 digits and letters a to f",
+}
+"""What each pattern of a text means."""
+
 _PLAIN = {
+    **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
     "finite_number": "must be a finite number",
-    "float_type": "must be a number",
-    "float_parsing": "must be a number",
-    "int_type": "must be a number",
-    "list_type": "must be a list",
-    "literal_error": "must be {expected}",
+    **dict.fromkeys(("float_type", "float_parsing"), "must be a number"),
+    **dict.fromkeys(
+        ("int_type", "int_parsing", "int_from_float", "int_parsing_size", "multiple_of"), "must be a whole number"
+    ),
+    **dict.fromkeys(("list_type", "tuple_type"), "must be a list"),
     "string_type": "must be text",
     "string_too_long": "must be text of at most {max_length} characters",
     "string_too_short": "must not be empty",
-    "string_pattern_mismatch": "must begin with a letter and go on with letters, digits, - and _",
     "too_long": "must be a list of {max_length}",
-    "tuple_type": "must be a list",
+    "too_short": "must be a list of at least {min_length}",
 }
 """What is allowed, by kind of error."""
 
@@ -97,7 +106,41 @@ def sentence(detail: ErrorDetails, model: type[BaseModel]) -> str:
         return f"{key} = {shown(value)}: {_PLAIN[kind].format(**detail.get('ctx', {}))}"
     if kind in ("missing_keyword", "model_type", "dict_type", "model_attributes_type"):
         return f"{key} = {shown(value)}: must be a table, [{key}]" if key else f"{shown(value)}: must be a table"
-    return f"{key} = {shown(value)}: {detail['msg'][0].lower()}{detail['msg'][1:]}"
+    return f"{key} = {shown(value)}: {_rarely(detail)}"
+
+
+def value_sentence(detail: ErrorDetails) -> str:
+    """Say what is allowed instead of one value that stands for itself, as behind an option."""
+    value, kind, context = shown(detail["input"]), detail["type"], detail.get("ctx", {})
+    if kind in _RANGES:
+        constraint, words = _RANGES[kind]
+        return f"{value}: must be {words.format(context[constraint])}"
+    if kind in _PLAIN:
+        return f"{value}: {_PLAIN[kind].format(**context)}"
+    if kind == "value_error":
+        said = str(context["error"])
+        _, choice, expected = said.partition(" is not one of ")
+        return f"{value}: {_one_of(detail['input'], f'one of {expected.rstrip(chr(46))}') if choice else said}"
+    return f"{value}: {_rarely(detail)}"
+
+
+def _rarely(detail: ErrorDetails) -> str:
+    """What is allowed, for the kinds of error that are not common to many keys; never in pydantic's words."""
+    kind, context = detail["type"], detail.get("ctx", {})
+    if kind == OWN_WORDS:
+        return detail["msg"]
+    if kind == "literal_error":
+        return _one_of(detail["input"], context["expected"])
+    if kind == "string_pattern_mismatch":
+        return _PATTERNS.get(context["pattern"], f"must match {context['pattern']}")
+    return "is not what belongs here"
+
+
+def _one_of(value: object, expected: str) -> str:
+    """What is allowed of a few words, and which of them may be meant; `expected` is pydantic's list of them."""
+    words = re.findall(r"'([^']*)'", expected)
+    near = nearest(value, words) if isinstance(value, str) else None
+    return f"must be {expected}{f'; did you mean {near}?' if near else ''}"
 
 
 def _with_unit(words: str, key: str) -> str:
@@ -126,12 +169,10 @@ def _unknown(location: Sequence[str | int], model: type[BaseModel]) -> str:
     *parents, name = location
     known = list(_fields(_table_at(parents, model)))
     where = f"in [{dotted(parents)}]" if parents else "at the top of the file"
-    near = [key for key in known if key.startswith(f"{name}_")] or difflib.get_close_matches(str(name), known, 1, 0.6)
-    hint = ""
-    if near:
-        unit = unit_of(near[0])
-        hint = f"; did you mean {near[0]}{f' (in {unit})' if unit else ''}?"
-    return f"{dotted(location)}: unknown key {where}{hint or ';'} known keys: {', '.join(known)}"
+    near = next((key for key in known if key.startswith(f"{name}_")), None) or nearest(str(name), known)
+    unit = unit_of(near) if near else None
+    hint = f"; did you mean {near}{f' (in {unit})' if unit else ''}?" if near else ";"
+    return f"{dotted(location)}: unknown key {where}{hint} known keys: {', '.join(known)}"
 
 
 def _fields(model: type[BaseModel]) -> dict[str, FieldInfo]:

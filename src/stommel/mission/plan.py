@@ -2,13 +2,16 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from stommel.files.fields import Name, Table
+from stommel.files.kinds import Flag, Format
 from stommel.files.ranges import Depth, DepthOrZero, Hours, Share, Speed, Volume, ZeroOr, between
+from stommel.geometry.longitudes import wrapped_deg
 
 Latitude = Annotated[float, between(-90, 90)]
-Longitude = Annotated[float, between(-180, 360)]
+Longitude = Annotated[float, between(-180, 360), AfterValidator(wrapped_deg)]
+"""Written to 180 or to 360; held, as every output has it, above -180 and up to 180."""
 PitchAngle = Annotated[float, between(5, 60)]
 DeadBand = Annotated[float, between(0, 90)]
 Period = Annotated[float, between(1, 86400)]
@@ -81,7 +84,7 @@ class Guidance(Table):
     """A waypoint is reached within this distance."""
     lookahead_m: Annotated[float, between(5, 1e6)] = 3000.0
     """How far ahead on the line between waypoints the vehicle aims."""
-    repeat: bool = False
+    repeat: Flag = False
     """Begin again with the first waypoint after the last."""
 
 
@@ -94,7 +97,7 @@ class Aborts(Table):
     """Too long without surfacing."""
     battery_share: Share = 0.02
     """The mission ends when no more than this part of the usable energy is left, by the vehicle's own account."""
-    leak: bool = True
+    leak: Flag = True
     """The mission ends when the leak detectors find water."""
     internal_pressure_kpa: Annotated[float, between(0.1, 1000)] | None = None
     """The mission ends above this pressure in the hull: the vacuum is lost."""
@@ -157,7 +160,7 @@ class Sampling(Table):
 class Plan(Table):
     """A plan, as its file describes it; a vehicle needs nothing else to fly its mission."""
 
-    format: Literal[1] = 1
+    format: Format = 1
     name: Name
     waypoints: tuple[Position, ...] = ()
     dives: Dives

@@ -10,6 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.files.opening import exists
 from stommel.ocean import times
 from stommel.ocean.answers import DEEPEST, Region, Sample, Source, depth_refusal, refusal, sample_of
 from stommel.ocean.errors import LandError, OutsideOceanError, UnknownOceanError
@@ -59,6 +60,7 @@ class Ocean:
         *,
         folder: Path | None = None,
         names: Mapping[str, str] | None = None,
+        units: Mapping[str, str] | None = None,
         outside: str = "error",
         outside_time: str | None = None,
         climatology: "Ocean | Source | None" = None,
@@ -86,6 +88,8 @@ class Ocean:
         names
             Names of the file's variables where `standard_name` does not tell: `temperature`, `salinity`, `current_x`,
             `current_y`, `bottom`, `time`, `depth`, `latitude`, `longitude`, `angle`. For a profile, of its columns.
+        units
+            Units of the file's variables where the file leaves them out or has them wrong, as `{"salinity": "psu"}`.
         outside
             Beyond the data: "error" refuses, "hold" keeps the nearest values, "climatology" goes over to
             `climatology`, or without one to the mean of the file.
@@ -121,8 +125,8 @@ class Ocean:
         policy(outside)  # a wrong word is said before a large file is read
         at_times = policy(outside if outside_time is None else outside_time, "outside_time")
         found = open_ocean(
-            path, folder, dict(names or {}), bounds, between, yearly, dict(parameters or {}), at_rest=at_rest,
-            mean_slot=at_times == CLIMATOLOGY and climatology is None, beyond=at_times != ERROR,
+            path, folder, dict(names or {}), dict(units or {}), bounds, between, yearly, dict(parameters or {}),
+            at_rest=at_rest, mean_slot=at_times == CLIMATOLOGY and climatology is None, beyond=at_times != ERROR,
         )  # fmt: skip
         return cls(*found).with_outside(
             outside, outside_time, climatology=climatology, blend_km=blend_km, blend_hours=blend_hours, folder=folder
@@ -182,11 +186,12 @@ class Ocean:
 
     def _second(self, climatology: "Ocean | Source", folder: Path | None) -> "Ocean":
         """Open the ocean behind this one."""
-        from stommel.ocean.analytic.catalogue import ANALYTIC  # noqa: PLC0415 - it imports geodesy
+        from stommel.ocean.analytic.catalogue import is_analytic  # noqa: PLC0415 - it imports geodesy
 
         if isinstance(climatology, Ocean):
             return climatology
-        if isinstance(climatology, str) and climatology in ANALYTIC:
+        beside = isinstance(climatology, str) and folder is not None and exists(folder / climatology)
+        if isinstance(climatology, str) and not beside and is_analytic(climatology):
             return Ocean.analytic(climatology)
         return Ocean.open(climatology, folder=folder, outside_time="hold", bounds=around(self.data))
 

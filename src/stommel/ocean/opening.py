@@ -17,6 +17,7 @@ def open_ocean(
     source: Source,
     folder: Path | None,
     names: dict[str, str],
+    units: dict[str, str],
     bounds: Region | None,
     between: tuple[Time, Time] | None,
     yearly: bool | None,
@@ -29,13 +30,15 @@ def open_ocean(
     """Name, grid and notes of an ocean; `Ocean.open` describes the arguments."""
     paths = paths_of(source, folder)
     if any(is_profile(path) for path in paths):
-        if len(paths) > 1 or bounds or between or yearly or at_rest:
-            raise UnknownOceanError(f"{paths[0]}: a profile is one file, without bounds, between, yearly or at_rest")
+        if len(paths) > 1 or bounds or between or yearly or at_rest or units:
+            raise UnknownOceanError(
+                f"{paths[0]}: a profile is one file, without bounds, between, yearly, at_rest or units"
+            )
         return str(paths[0]), *read_profile_ocean(paths[0], names, parameters)
     if parameters:
         raise UnknownOceanError(
             f"{paths[0]}: parameter {next(iter(parameters))}: only a profile or an analytic ocean has parameters"
         )
-    data, notes = read_ocean(paths, Reading(names, bounds, between, yearly, at_rest, mean_slot, beyond))
+    data, notes = read_ocean(paths, Reading(names, units, bounds, between, yearly, at_rest, mean_slot, beyond))
     name = str(paths[0]) if len(paths) == 1 else f"{paths[0]} and {len(paths) - 1} more"
     return name, data, notes

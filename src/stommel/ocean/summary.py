@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.geometry.longitudes import wrapped_deg
 from stommel.ocean import times
 from stommel.ocean.kernel.chart import project
 from stommel.ocean.kernel.grid import CLIMATOLOGY, CT, S_A, U_X, U_Y, UNBOUNDED_DEPTH, Nodes, OceanGrid, T
@@ -83,6 +84,7 @@ def around(data: OceanGrid) -> tuple[float, float, float, float] | None:
     if extent["latitude_deg"] is None:
         return None
     (south, north), (west, east) = extent["latitude_deg"], extent["longitude_deg"]
+    east += 360.0 if east < west else 0.0
     south, north = max(south - _ROOM, -90.0), min(north + _ROOM, 90.0)
     # meridians converge
     room = _ROOM / max(cos(radians(max(abs(south), abs(north)))), 1e-3)
@@ -92,19 +94,22 @@ def around(data: OceanGrid) -> tuple[float, float, float, float] | None:
 
 
 def extent_of(data: OceanGrid) -> dict[str, Any]:
-    """Range of latitude and longitude, and the spacing of the nodes; none where the ocean is the same everywhere."""
+    """Range of latitude and longitude, and the spacing of the nodes; none where the ocean is the same everywhere.
+
+    Across the date line the west is the greater, as in the boxes of GeoJSON (RFC 7946, section 5.2).
+    """
     nodes = data.nodes
     if nodes.x.size == 1:
         return {"latitude_deg": None, "longitude_deg": None, "spacing_km": None}
     latitude, longitude = node_places(data)
-    # longitudes beside the middle one, so that the date line does not tear them
+    # beside the middle one, so that the date line does not tear them
     middle = degrees(nodes.chart.longitude)
     beside = middle + (longitude - middle + 180.0) % 360.0 - 180.0
     spacing = np.hypot(np.diff(nodes.x, axis=1), np.diff(nodes.y, axis=1))
     scale = project(nodes.chart, radians(float(np.median(latitude))), nodes.chart.longitude).scale
     return {
         "latitude_deg": [float(latitude.min()), float(latitude.max())],
-        "longitude_deg": [float(beside.min()), float(beside.max())],
+        "longitude_deg": [wrapped_deg(float(beside.min())), wrapped_deg(float(beside.max()))],
         "spacing_km": float(np.median(spacing)) / scale / 1e3,
     }
 

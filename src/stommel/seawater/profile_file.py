@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.errors import FileError, Problem
-from stommel.files.delimited import Delimited, read_delimited
+from stommel.files.delimited import Delimited, number_in, read_delimited
+from stommel.files.nearest import did_you_mean
 from stommel.files.sentences import shown
 from stommel.seawater import properties
 from stommel.seawater.stratification import Stratification
@@ -24,6 +25,9 @@ _ALLOWED = {
     "potential_temperature_c": (-5.0, 42.0), "conservative_temperature_c": (-5.0, 42.0), "salinity_psu": (0.0, 42.0),
     "absolute_salinity_g_kg": (0.0, 42.0), "density_kg_m3": (900.0, 1100.0),
 }  # fmt: skip
+
+_MARK = 1e-20
+"""Numbers smaller than this are no readings: Sea-Bird's programs write -9.99e-29 for a bad one."""
 
 
 def read_stratification(
@@ -50,8 +54,9 @@ def read_stratification(
         The file cannot be read, a column is missing, or a number is impossible; every problem is listed.
     """
     name = str(path)
-    data = _numbers(read_delimited(path), dict(columns or {}))
-    problems = [*_missing(name, data), *_impossible(name, data)]
+    table = read_delimited(path)
+    data = _numbers(table, dict(columns or {}))
+    problems = [*_missing(name, data), *_impossible(table, data)]
     if problems:
         raise FileError(problems)
     return _stratification(name, data, latitude, longitude)
@@ -61,7 +66,8 @@ def _numbers(table: Delimited, columns: dict[str, str]) -> dict[str, NDArray[np.
     name, header = table.file, table.header
     unknown = sorted(set(columns) - set(KNOWN))
     if unknown:
-        raise FileError([Problem(name, unknown[0], f"columns: unknown name {unknown[0]}; known: {', '.join(KNOWN)}")])
+        text = f"columns: unknown name {unknown[0]}{did_you_mean(unknown[0], KNOWN)} known: {', '.join(KNOWN)}"
+        raise FileError([Problem(name, unknown[0], text)])
     absent = [f"{key} = {columns[key]!r}" for key in columns if columns[key] not in header]
     if absent:
         raise FileError([Problem(name, "", f"no column {absent[0]}; there are: {', '.join(header)}")])
@@ -72,11 +78,11 @@ def _numbers(table: Delimited, columns: dict[str, str]) -> dict[str, NDArray[np.
 def _column(table: Delimited, title: str) -> NDArray[np.float64]:
     values = []
     for row, cell in zip(table.lines, table.cells(title), strict=True):
-        try:
-            values.append(float(cell))
-        except ValueError:
+        value = number_in(cell)
+        if value is None:
             text = f"row {row}: {title} = {shown(cell)}: must be a number"
-            raise FileError([Problem(table.file, title, text)]) from None
+            raise FileError([Problem(table.file, title, text)])
+        values.append(value)
     return np.array(values)
 
 
@@ -91,19 +97,28 @@ def _missing(name: str, data: Mapping[str, NDArray[np.float64]]) -> list[Problem
     return problems
 
 
-def _impossible(name: str, data: Mapping[str, NDArray[np.float64]]) -> list[Problem]:
-    problems = []
-    for key, values in data.items():
-        low, high = _ALLOWED[key]
-        wrong = values[~((values >= low) & (values <= high))]
-        if wrong.size:
-            problems.append(Problem(name, key, f"{key} = {wrong[0]:g}: must be between {low:g} and {high:g}"))
+def _impossible(table: Delimited, data: Mapping[str, NDArray[np.float64]]) -> list[Problem]:
+    problems = [problem for key, values in data.items() if (problem := _out_of_range(table, key, values)) is not None]
     for key in VERTICAL:
         if key in data and np.any(np.diff(data[key]) <= 0.0):
-            place = int(np.argmax(np.diff(data[key]) <= 0.0))
-            pair = f"{data[key][place]:g} is followed by {data[key][place + 1]:g}"
-            problems.append(Problem(name, key, f"{key}: {pair}; it must increase from row to row"))
+            k = int(np.argmax(np.diff(data[key]) <= 0.0))
+            pair = f"{data[key][k]:g} is followed by {data[key][k + 1]:g} in row {table.lines[k + 1]}"
+            problems.append(Problem(table.file, key, f"{key}: {pair}; it must increase from row to row"))
     return problems
+
+
+def _out_of_range(table: Delimited, key: str, values: NDArray[np.float64]) -> Problem | None:
+    """The first row whose value no sea has, or which an instrument marks as no reading."""
+    low, high = _ALLOWED[key]
+    marks = (values != 0.0) & (np.abs(values) < _MARK)
+    wrong = np.flatnonzero(~((values >= low) & (values <= high)) | marks)
+    if not wrong.size:
+        return None
+    k = int(wrong[0])
+    mark = " (an instrument writes this for a bad reading: leave such rows out)" if marks[k] else ""
+    others = f"; {wrong.size} of {values.size} rows are so" if wrong.size > 1 else ""
+    text = f"row {table.lines[k]}: {key} = {values[k]:g}: must be between {low:g} and {high:g}{mark}{others}"
+    return Problem(table.file, key, text)
 
 
 def _stratification(

@@ -1,13 +1,13 @@
 """Keys of parameters: where they lie in the document of a mission, and whether they can be changed."""
 
 import copy
-import difflib
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from stommel.errors import FileError, StommelError
+from stommel.files.nearest import did_you_mean
 from stommel.files.sentences import validated
 from stommel.ocean.analytic.catalogue import ANALYTIC
 from stommel.ocean.analytic.profile import ProfileOcean
@@ -44,8 +44,7 @@ def key_problems(parameter: Parameter, kit: RunKit) -> Iterator[str]:
         space, rest = key.split(".", 1)
         words = [word if isinstance(word, str) else ".".join(word) for word in known]
         words = [word.removeprefix("sensors.") for word in words] if space == "sensors" else words
-        near = difflib.get_close_matches(rest, words, 1, 0.5)
-        hint = f"; did you mean {space}.{near[0]}?" if near else ""
+        hint = did_you_mean(rest, words, f"{space}.").removesuffix(";")
         listed = f" Known: {', '.join(words)}" if len(words) <= 30 else ""
         yield f"parameters: key = {key!r}: {_whose(space, kit)} has no such number{hint}{listed}"
         return

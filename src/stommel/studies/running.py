@@ -147,17 +147,28 @@ def fly_on_cluster(
         import distributed  # noqa: PLC0415 - an extra, and slow to load
     except ImportError:
         raise StudyError("--scheduler needs Dask: pip install 'stommel[cluster]'") from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    try:
-        client: Any = distributed.Client(address, timeout=patience_s, set_as_default=False)  # type: ignore[no-untyped-call]
-    except (OSError, ValueError, TypeError, RuntimeError) as error:
-        raise StudyError(f"--scheduler {address}: cannot be reached: {_line(error)}") from None
+    client = _connected(distributed, address, patience_s)
     with client:
         try:
             client.wait_for_workers(1, timeout=patience_s)
         except TimeoutError:
             raise StudyError(f"--scheduler {address}: has no workers; start some: dask worker {address}") from None
         yield from _on_cluster(client, kit, tasks, address, stop)
+
+
+def _connected(distributed: Any, address: str, patience_s: float) -> Any:
+    """Client of a scheduler; what Dask and its event loop would write of their troubles is kept off the screen."""
+    for name in ("distributed", "tornado", "asyncio"):
+        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+
+    class Client(distributed.Client):  # type: ignore[misc]
+        def __del__(self) -> None:
+            """One that never connected waits for that, and ends in a traceback; the others are closed where used."""
+
+    try:
+        return Client(address, timeout=patience_s, set_as_default=False)
+    except Exception as error:  # noqa: BLE001 - what answers there may be no scheduler at all, and say anything
+        raise StudyError(f"--scheduler {address}: cannot be reached: {_line(error)}") from None
 
 
 def _on_cluster(

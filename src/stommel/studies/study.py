@@ -13,6 +13,7 @@ from stommel.files.opening import beside
 from stommel.files.toml_reader import read_table
 from stommel.ocean.analytic.catalogue import ANALYTIC
 from stommel.ocean.reading.sources import paths_of
+from stommel.ocean.reading.stores import files_of
 from stommel.simulation.scenario.loading import load_mission
 from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.shipped import UnknownMissionError, mission_path
@@ -147,7 +148,8 @@ def _file_digest(kit: RunKit) -> str:
     choice, digest = kit.document["ocean"], hashlib.sha256()
     climatology = choice["climatology"] if choice["climatology"] not in ANALYTIC else None
     sources = [source for source in (choice["file"], climatology) if source is not None]
-    for path in (path for source in sources for path in paths_of(source, kit.folder)):
+    named = (path for source in sources for path in paths_of(source, kit.folder))
+    for path in (part for whole in named for part in files_of(whole)):
         try:
             with path.open("rb") as file:
                 digest.update(hashlib.file_digest(file, "sha256").digest())

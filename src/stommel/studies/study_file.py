@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import ConfigDict, Field, field_validator, model_validator
 
 from stommel.files.fields import Name, Table
+from stommel.files.kinds import Flag, Format
 from stommel.files.ranges import GREATEST_SEED, between
 
 SWEEP, LATIN_HYPERCUBE, MONTE_CARLO, SOBOL = "sweep", "latin_hypercube", "monte_carlo", "sobol"
@@ -131,7 +132,7 @@ class Parameter(Table):
 class StudyFile(Table):
     """A study, as its file describes it."""
 
-    format: Literal[1] = 1
+    format: Format = 1
     name: Name
     mission: Annotated[str, Field(min_length=1)]
     """Mission file beside the study file, or a shipped mission."""
@@ -140,7 +141,7 @@ class StudyFile(Table):
     """Runs; of a sweep, at each combination of values (1 if left out); of a Sobol study, base points."""
     seed: Annotated[int, Field(strict=True, ge=0, le=GREATEST_SEED)] = 0
     """Of the samples and of every run."""
-    same_noise: bool = False
+    same_noise: Flag = False
     """Every run draws the same sensor noise, so that differences are the parameters' alone."""
     parameters: tuple[Parameter, ...]
     outputs: tuple[str, ...] = ()

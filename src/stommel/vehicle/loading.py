@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from stommel.errors import FileError, Problem, StommelError
+from stommel.files.nearest import did_you_mean
 from stommel.files.opening import TOML_MIB, names_file, read_text
 from stommel.files.provenance import NOT_STATED, Provenance, check_ranges, numbers, separate
 from stommel.files.sentences import validated
@@ -149,7 +150,8 @@ def vehicle_text(name_or_path: str | Path) -> str:
         return builtin_text(name)
     if not names_file(name):
         raise UnknownVehicleError(
-            f"vehicle {name!r} is neither a built-in vehicle nor a file; built-in: {', '.join(builtin_names())}"
+            f"vehicle {name!r} is neither a built-in vehicle nor a file{did_you_mean(name, builtin_names())} "
+            f"built-in: {', '.join(builtin_names())}"
         )
     return read_text(name, TOML_MIB)
 

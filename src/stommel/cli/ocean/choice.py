@@ -3,7 +3,6 @@
 from typing import TYPE_CHECKING, Any
 
 from stommel.errors import StommelError
-from stommel.files.opening import names_file
 
 if TYPE_CHECKING:
     from stommel.ocean import Ocean
@@ -22,25 +21,27 @@ def open_ocean(given: list[str], choice: dict[str, Any], policies: dict[str, Any
         Neither name nor file, or an option that this kind of ocean does not have.
     """
     from stommel.ocean import Ocean
-    from stommel.ocean.analytic.catalogue import ANALYTIC
+    from stommel.ocean.analytic.catalogue import ANALYTIC, is_analytic
 
+    choice = choice | {"parameters": {key: _number_or_text(value) for key, value in choice["parameters"].items()}}
     if given[0] in ANALYTIC:
         if len(given) > 1:
             raise OceanOptionError(f"{given[0]}: an analytic ocean stands alone; {given[1]} is too much")
-        unfit = [key for key in ("names", "bounds", "between", "at_rest") if choice[key]]
+        unfit = [key for key in ("names", "units", "bounds", "between", "at_rest") if choice[key]]
         if unfit:
-            option = "--" + unfit[0].removesuffix("s" if unfit[0] == "names" else "").replace("_", "-")
+            option = "--" + unfit[0].removesuffix("s" if unfit[0] in ("names", "units") else "").replace("_", "-")
             raise OceanOptionError(f"{option}: {given[0]} is an analytic ocean; only a file has this option")
         return Ocean.analytic(given[0], **choice["parameters"]).with_outside(**policies)
-    if len(given) == 1 and not _looks_like_a_file(given[0]):
-        raise OceanOptionError(
-            f"ocean {given[0]!r} is neither an analytic ocean nor a file; analytic: {', '.join(ANALYTIC)}"
-        )
+    if len(given) == 1:
+        is_analytic(given[0])  # refuses what is no file either
     return Ocean.open(given, **choice, **policies)
 
 
-def _looks_like_a_file(name: str) -> bool:
-    return names_file(name) or any(mark in name for mark in "*?[")
+def _number_or_text(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text  # refused with its name by what should have been given a number
 
 
 def pairs(texts: list[str] | None, option: str) -> dict[str, str]:

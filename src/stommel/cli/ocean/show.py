@@ -33,6 +33,10 @@ def show(
         list[str] | None,
         typer.Option("--name", metavar="WHAT=VARIABLE", help="Variable of a file, or column of a profile."),
     ] = None,
+    units: Annotated[
+        list[str] | None,
+        typer.Option("--unit", metavar="WHAT=UNIT", help="Unit of a variable of a file that does not say it."),
+    ] = None,
     region: Annotated[
         str | None, typer.Option("--bounds", metavar="S,N,W,E", help="Region of a file to read [deg].")
     ] = None,
@@ -62,6 +66,7 @@ def show(
     where, when = place(at), seconds(time) if time is not None else None
     choice = {
         "names": pairs(names, "--name"),
+        "units": pairs(units, "--unit"),
         "parameters": pairs(parameter, "--set"),
         "bounds": bounds(region),
         "between": between(period),

@@ -3,10 +3,12 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
-from typing import Any, Literal
+from typing import Any
 
 from stommel.errors import StommelError
 from stommel.files.fields import Name, Table
+from stommel.files.kinds import Format
+from stommel.files.nearest import did_you_mean
 from stommel.files.opening import TOML_MIB, names_file, read_text
 from stommel.files.provenance import separate
 from stommel.files.sentences import validated
@@ -20,7 +22,7 @@ _EXAMPLES = "examples"
 class EngineFile(Table):
     """A file that describes an engine and no vehicle."""
 
-    format: Literal[1] = 1
+    format: Format = 1
     name: Name
     summary: str = ""
     notes: tuple[str, ...] = ()
@@ -76,7 +78,8 @@ def load_engine(name_or_path: str) -> NamedEngine:
         return engine_from_text(text, f"{name_or_path}.toml")
     if not names_file(name_or_path):
         raise NoEngineError(
-            f"engine {name_or_path!r} is neither an example nor a file; examples: {', '.join(example_names())}"
+            f"engine {name_or_path!r} is neither an example nor a file{did_you_mean(name_or_path, example_names())} "
+            f"examples: {', '.join(example_names())}"
         )
     return engine_from_text(read_text(name_or_path, TOML_MIB), name_or_path)
 

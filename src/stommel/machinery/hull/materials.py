@@ -1,16 +1,16 @@
 """What hulls are made of: a table of materials with the source of each number."""
 
-import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
 from stommel.errors import FileError, Problem, StommelError
 from stommel.files.fields import Table
+from stommel.files.nearest import did_you_mean
 from stommel.files.opening import TOML_MIB, read_text
 from stommel.files.provenance import separate
 from stommel.files.ranges import Stress, ThermalExpansion, between
@@ -162,9 +162,7 @@ def find_material(name: str, materials: tuple[Material, ...]) -> Material:
         }:
             return material
     names = [material.name for material in materials]
-    near: list[Any] = difflib.get_close_matches(name, names, 1, 0.6)
-    hint = f"; did you mean {near[0]}?" if near else ";"
-    raise MaterialError(f"material {name!r}: unknown{hint} known materials: {', '.join(names)}")
+    raise MaterialError(f"material {name!r}: unknown{did_you_mean(name, names)} known materials: {', '.join(names)}")
 
 
 def _plain(name: str) -> str:

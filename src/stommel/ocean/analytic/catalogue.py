@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+from stommel.files.nearest import did_you_mean
+from stommel.files.opening import names_file
 from stommel.files.sentences import shown
 from stommel.ocean.analytic.east_china_sea import EastChinaSea
 from stommel.ocean.analytic.everywhere import (
@@ -33,6 +35,24 @@ ANALYTIC: dict[str, type[Any]] = {
 """Analytic oceans by name; the fields of each are its parameters, with the unit at the end of the name."""
 
 
+def is_analytic(name: str) -> bool:
+    """Whether a name is that of an analytic ocean; False where it is meant as that of a file.
+
+    Raises
+    ------
+    UnknownOceanError
+        It is neither.
+    """
+    if name in ANALYTIC:
+        return True
+    if names_file(name) or any(mark in name for mark in "*?["):
+        return False
+    raise UnknownOceanError(
+        f"ocean {name!r} is neither an analytic ocean nor a file{did_you_mean(name, ANALYTIC)} "
+        f"analytic: {', '.join(ANALYTIC)}"
+    )
+
+
 def build_analytic(name: str, parameters: Mapping[str, Any]) -> tuple[OceanGrid, dict[str, str]]:
     """Grid and notes of an analytic ocean.
 
@@ -42,7 +62,10 @@ def build_analytic(name: str, parameters: Mapping[str, Any]) -> tuple[OceanGrid,
         The name or a parameter is unknown, or a value is not allowed.
     """
     if name not in ANALYTIC:
-        raise UnknownOceanError(f"ocean {shown(name)}: unknown analytic ocean; there are: {', '.join(ANALYTIC)}")
+        raise UnknownOceanError(
+            f"ocean {shown(name)}: unknown analytic ocean{did_you_mean(name, ANALYTIC)} "
+            f"there are: {', '.join(ANALYTIC)}"
+        )
     ocean = made(ANALYTIC[name], f"ocean {name!r}", parameters)
     grid: OceanGrid = ocean.grid()
     return grid, dict(ocean.notes())

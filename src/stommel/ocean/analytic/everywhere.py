@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from stommel.files.nearest import did_you_mean
 from stommel.files.sentences import sentence
 from stommel.ocean.errors import UnknownOceanError
 from stommel.ocean.kernel.building import Frame, Slot, ocean_grid
@@ -34,7 +35,7 @@ Array = NDArray[np.float64]
 class Parameters(BaseModel):
     """What all oceans have in common."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=False, allow_inf_nan=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
     bottom_m: Depth | None = None
     """Depth of a flat bottom; none if left out."""
@@ -64,8 +65,9 @@ def made(kind: type[Any], label: str, values: Mapping[str, Any]) -> Any:
         # unknown keys first: they often explain the missing ones
         detail = min(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
         if detail["type"] == "extra_forbidden":
-            known = ", ".join(kind.model_fields)
-            text = f"{label}: unknown parameter {detail['loc'][0]}; parameters: {known}"
+            known, name = list(kind.model_fields), str(detail["loc"][0])
+            near = next((key for key in known if key.startswith(f"{name}_")), name)
+            text = f"{label}: unknown parameter {name}{did_you_mean(near, known)} parameters: {', '.join(known)}"
             raise UnknownOceanError(text) from None
         raise UnknownOceanError(f"{label}: {sentence(detail, kind)}") from None
 

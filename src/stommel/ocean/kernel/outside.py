@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.files.nearest import did_you_mean
 from stommel.ocean.errors import UnknownOceanError
 from stommel.ocean.kernel.chart import project_nodes
 from stommel.ocean.kernel.grid import (
@@ -34,7 +35,9 @@ def policy(name: str, key: str = "outside") -> int:
         There is none of this name.
     """
     if name not in POLICIES:
-        raise UnknownOceanError(f"{key} = {name!r}: must be one of {', '.join(POLICIES)}")
+        raise UnknownOceanError(
+            f"{key} = {name!r}: must be one of {', '.join(POLICIES)}{did_you_mean(name, POLICIES).removesuffix(';')}"
+        )
     return POLICIES[name]
 
 

@@ -13,6 +13,8 @@ from stommel.ocean.reading.variables import File
 
 Array = NDArray[np.float64]
 
+TIME_AND_DEPTH = ("time", "depth", "height", "altitude", "depth_below_geoid")
+"""Standard names of coordinates."""
 _TERRAIN = ("sigma", "ocean_s", "s_coordinate", "ocean_double")
 _TERRAIN_DIMENSIONS = ("s_rho", "s_w", "siglay", "siglev")
 _DEPTH_DIMENSIONS = ("depth", "z", "lev", "level", "deptht", "st_ocean", "z_t")

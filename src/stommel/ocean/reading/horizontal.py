@@ -1,5 +1,6 @@
 """Latitude and longitude of the nodes of a CF file, and the angle of its axes to east and north."""
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NoReturn
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 from pyproj import CRS, Transformer
 from pyproj.exceptions import CRSError
 
+from stommel.ocean.reading.units import EAST, NORTH
 from stommel.ocean.reading.variables import File
 
 Array = NDArray[np.float64]
@@ -65,7 +67,8 @@ def read_nodes(file: File, variable: str, others: tuple[str, ...], *, turned: bo
     elif lat.ndim == 1 and lon.ndim == 1:
         rows, columns = dims[0], str(file.data[longitude].dims[0])
         _check_monotonic(file, latitude, lat)
-        _check_monotonic(file, longitude, np.unwrap(lon))
+        _check_monotonic(file, longitude, np.unwrap(lon[np.isfinite(lon)]))
+        file.require_count(latitude, lat.size * lon.size, "nodes")
         lon2, lat2 = np.meshgrid(lon, lat)
         nodes = Nodes(rows, columns, lat2, lon2, np.zeros_like(lat2), "the axes are east and north")
     else:
@@ -78,8 +81,9 @@ def read_nodes(file: File, variable: str, others: tuple[str, ...], *, turned: bo
 
 
 def _check_monotonic(file: File, name: str, values: Array) -> None:
+    values = values[np.isfinite(values)]
     steps = np.diff(values)
-    if not (np.all(steps > 0.0) or np.all(steps < 0.0)) and np.all(np.isfinite(values)):
+    if not (np.all(steps > 0.0) or np.all(steps < 0.0)):
         n = int(np.flatnonzero(np.sign(steps) != np.sign(steps[0]))[0]) if steps[0] != 0.0 else 0
         pair = " is followed by ".join(f"{np.degrees(value):g}" for value in values[n : n + 2])
         file.refuse(name, f"{name} neither increases nor decreases from node to node: {pair} deg at index {n}")
@@ -106,12 +110,12 @@ def _dims(file: File, name: str | None) -> set[str]:
 
 def _coordinate(file: File, what: str, flat: list[str]) -> str | None:
     """Latitude or longitude variable over the horizontal dimensions; one number where there are none."""
-    units = {"latitude": "north", "longitude": "east"}[what]
+    units = {"latitude": NORTH, "longitude": EAST}[what]
     name = file.find(what, needed=False)
     if name is None or not _dims(file, name) <= set(flat):
         for candidate in map(str, file.data.variables):
             given = str(file.data[candidate].attrs.get("units", "")).lower()
-            if given in (f"degrees_{units}", f"degree_{units}") and _dims(file, candidate) <= set(flat):
+            if given in units and _dims(file, candidate) <= set(flat):
                 return candidate
         return None
     return name
@@ -121,11 +125,6 @@ def _check(file: File, latitude: str, nodes: Nodes) -> None:
     if min(nodes.latitude.shape) < 2 and nodes.latitude.size != 1:
         rows, columns = nodes.latitude.shape
         file.refuse(latitude, f"the grid has {rows} x {columns} nodes; a single one or at least 2 x 2 are needed")
-    if not (np.all(np.isfinite(nodes.latitude)) and np.all(np.isfinite(nodes.longitude))):
-        file.refuse(latitude, "latitude and longitude must be given at every node, on land too")
-    if np.abs(nodes.latitude).max() > np.pi / 2 + 1e-9:
-        worst = np.degrees(np.abs(nodes.latitude).max())
-        file.refuse(latitude, f"{latitude} has the value {worst:g} deg: must be between -90 and 90")
 
 
 def _mapping(file: File, variable: str) -> CRS | None:
@@ -184,6 +183,7 @@ def _projected(file: File, flat: list[str], mapping: CRS | None, variable: str) 
             "nodes first",
         )
     rows, columns, x, y = axes
+    file.require_count(variable, x.size * y.size, "nodes")
     X, Y = np.meshgrid(x, y)
     lon, lat = _geodetic(mapping).transform(X, Y, direction="INVERSE")
     latitude, longitude = np.radians(lat), np.radians(lon)
@@ -212,19 +212,26 @@ def _fits(mapping: CRS, latitude: Array, longitude: Array) -> bool:
 
     The map coordinates of the file are not asked: files cut or averaged from another grid keep them half a cell off.
     """
-    X, Y = (np.asarray(a) for a in _geodetic(mapping).transform(np.degrees(longitude), np.degrees(latitude)))
-    if not mapping.is_projected:  # rotated longitudes, which may cross their own date line
-        X = np.degrees(np.unwrap(np.unwrap(np.radians(X), axis=0), axis=1))
-    if not (np.all(np.isfinite(X)) and np.all(np.isfinite(Y))):
+    known = np.isfinite(latitude) & np.isfinite(longitude)
+    X, Y = (np.array(a) for a in _geodetic(mapping).transform(np.degrees(longitude), np.degrees(latitude)))
+    if not (np.all(np.isfinite(X[known])) and np.all(np.isfinite(Y[known]))):
         return False
-    cell = min(float(np.abs(np.diff(a, axis=axis)).mean()) for a, axis in _varying(X, Y))
-    crooked = max(float(np.ptp(a, axis=1 - axis).max()) for a, axis in _varying(X, Y))
+    X[~known], Y[~known] = np.nan, np.nan
+    if not mapping.is_projected:  # rotated longitudes, which may cross their own date line
+        middle = np.degrees(np.angle(np.nanmean(np.exp(1j * np.radians(X)))))
+        X = middle + (X - middle + 180.0) % 360.0 - 180.0
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # a row without any place
+        cell = min(float(np.nanmean(np.abs(np.diff(a, axis=axis)))) for a, axis in _varying(X, Y))
+        crooked = max(
+            float(np.nanmax(np.nanmax(a, axis=1 - axis) - np.nanmin(a, axis=1 - axis))) for a, axis in _varying(X, Y)
+        )
     return crooked < _MISFIT * cell
 
 
 def _varying(X: Array, Y: Array) -> list[tuple[Array, int]]:
     """Each map coordinate with the axis of the array along which it changes most."""
-    along = 1 if np.abs(np.diff(X, axis=1)).mean() > np.abs(np.diff(X, axis=0)).mean() else 0
+    along = 1 if np.nanmean(np.abs(np.diff(X, axis=1))) > np.nanmean(np.abs(np.diff(X, axis=0))) else 0
     return [(X, along), (Y, 1 - along)]
 
 
@@ -244,17 +251,18 @@ def map_angle(mapping: CRS, latitude: Array, longitude: Array) -> Array:
     ends = []
     for side in (-0.5, 0.5):
         lon, lat = turn.transform(X + side * step, Y, direction="INVERSE")
-        ends.append(_in_space(np.radians(lat), np.radians(lon), flattening))
+        with np.errstate(invalid="ignore"):  # nodes without a place
+            ends.append(_in_space(np.radians(lat), np.radians(lon), flattening))
     return _direction(latitude, longitude, ends[1] - ends[0])
 
 
 def node_angle(latitude: Array, longitude: Array) -> Array:
     """Angle from east to the direction of growing i [rad], by differences of neighbouring nodes on the sphere."""
     places = _in_space(latitude, longitude, 0.0)
-    step = np.empty_like(places)
-    step[:, :, 1:-1] = places[:, :, 2:] - places[:, :, :-2]
-    step[:, :, 0] = places[:, :, 1] - places[:, :, 0]
-    step[:, :, -1] = places[:, :, -1] - places[:, :, -2]
+    steps = np.diff(places, axis=2)
+    ahead, behind = (np.concatenate(parts, axis=2) for parts in ((steps, steps[:, :, -1:]), (steps[:, :, :1], steps)))
+    # beside a node without a place the difference to the other side is taken
+    step = np.where(np.isnan(ahead), behind, np.where(np.isnan(behind), ahead, ahead + behind))
     return _direction(latitude, longitude, step)
 
 

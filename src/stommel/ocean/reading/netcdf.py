@@ -7,14 +7,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.files.nearest import did_you_mean
 from stommel.ocean import times as clock
 from stommel.ocean.answers import Region
 from stommel.ocean.errors import UnknownOceanError
 from stommel.ocean.kernel.building import Frame, Slot, ocean_grid
 from stommel.ocean.kernel.grid import FIELDS, OceanGrid
-from stommel.ocean.reading.axes import time_dimension
-from stommel.ocean.reading.horizontal import read_nodes
+from stommel.ocean.reading.plausible import left_out, require_salinity, require_speed
 from stommel.ocean.reading.region import inside
+from stommel.ocean.reading.sea_floor import read_sea_floor
 from stommel.ocean.reading.series import (
     Layout,
     Layouts,
@@ -22,11 +23,11 @@ from stommel.ocean.reading.series import (
     check_same_places,
     check_same_times,
     layout_of,
-    read_box,
-    same_nodes,
+    numbers_at,
     series_of,
 )
 from stommel.ocean.reading.sources import opened
+from stommel.ocean.reading.units import QUANTITY_OF, UNITS, plain
 from stommel.ocean.reading.variables import OWN_NAMES, File
 from stommel.ocean.times import Time, seconds
 from stommel.seawater import properties
@@ -46,6 +47,7 @@ class Reading:
     """What of the files is read, and how; `Ocean.open` describes the arguments."""
 
     names: dict[str, str]
+    units: dict[str, str]
     bounds: Region | None = None
     between: tuple[Time, Time] | None = None
     yearly: bool | None = None
@@ -74,9 +76,21 @@ def read_ocean(paths: Sequence[Path], reading: Reading) -> tuple[OceanGrid, dict
     """Read the grid of files and notes on what was found where."""
     unknown = sorted(set(reading.names) - set(OWN_NAMES))
     if unknown:
-        raise UnknownOceanError(f"names: unknown key {unknown[0]}; known: {', '.join(OWN_NAMES)}")
-    with opened(paths, reading.names) as files:
+        hint = did_you_mean(unknown[0], OWN_NAMES)
+        raise UnknownOceanError(f"names: unknown key {unknown[0]}{hint} known: {', '.join(OWN_NAMES)}")
+    _check_units(reading.units)
+    with opened(paths, reading.names, reading.units) as files:
         return _read(files, reading)
+
+
+def _check_units(units: dict[str, str]) -> None:
+    for what, unit in units.items():
+        if what not in QUANTITY_OF:
+            hint = did_you_mean(what, QUANTITY_OF)
+            raise UnknownOceanError(f"units: unknown key {what}{hint} known: {', '.join(QUANTITY_OF)}")
+        known = UNITS[QUANTITY_OF[what]]
+        if plain(unit) not in known:
+            raise UnknownOceanError(f"units: {what} = {unit!r}: must be one of {', '.join(known)}")
 
 
 def _read(files: Sequence[File], reading: Reading) -> tuple[OceanGrid, dict[str, str]]:
@@ -89,7 +103,7 @@ def _read(files: Sequence[File], reading: Reading) -> tuple[OceanGrid, dict[str,
     _check_size(first.first, len(slots), len(j), len(i))
     box = np.ix_(j, i)
     here = replace(nodes, latitude=nodes.latitude[box], longitude=nodes.longitude[box])
-    bottom, bottom_name = _bottom(files, first.first, (j, i))
+    bottom, bottom_note = read_sea_floor(files, first.first, _wet(first, int(slots[0]), (j, i)), (j, i))
     frame = Frame(
         first.times[slots], _span(first, slots, yearly=yearly), first.first.depths, here.latitude, here.longitude,
         bottom, period=YEAR if yearly else np.inf,
@@ -98,7 +112,19 @@ def _read(files: Sequence[File], reading: Reading) -> tuple[OceanGrid, dict[str,
         grid = ocean_grid(frame, _slices(fields, slots, (j, i), frame), mean_slot=reading.mean_slot)
     except UnknownOceanError as error:
         first.first.file.refuse(first.first.variable, str(error))
-    return grid, _notes(fields, frame, bottom_name, len(files))
+    return grid, _notes(fields, frame, bottom_note, len(files)) | _told(files)
+
+
+def _wet(series: Series, n: int, box: tuple[NDArray[np.intp], NDArray[np.intp]]) -> NDArray[np.bool_]:
+    """Nodes with water at the first level."""
+    layout, slot = series.places[n]
+    wet: NDArray[np.bool_] = np.isfinite(numbers_at(layout, series.what, slot, *box, top=True)[0])
+    return wet
+
+
+def _told(files: Sequence[File]) -> dict[str, str]:
+    """What was left out or set right, by variable."""
+    return {f"numbers of {key}": text for file in files for key, text in file.tally.told().items()}
 
 
 def _check_dimensions(files: Sequence[File], names: dict[str, str]) -> None:
@@ -173,25 +199,6 @@ def _check_size(layout: Layout, slots: int, rows: int, columns: int) -> None:
         )
 
 
-def _bottom(
-    files: Sequence[File], first: Layout, box: tuple[NDArray[np.intp], NDArray[np.intp]]
-) -> tuple[Array | None, str]:
-    """Depth of the bottom at the chosen nodes [m], if a file has it, and the variable's name."""
-    for file in _holders(files, "bottom"):
-        name = str(file.find("bottom"))
-        nodes = read_nodes(file, name, (), turned=False) if file is not first.file else first.nodes
-        dims = {str(d) for d in file.data[name].dims if file.data.sizes[d] > 1 or d in (nodes.rows, nodes.columns)}
-        wanted = {nodes.rows, nodes.columns} - {""}
-        if dims - {time_dimension(file, name)} != wanted or not same_nodes(first.nodes, nodes):
-            there = ", ".join(map(str, file.data[name].dims)) or "none"
-            file.refuse(name, f"{name} has the dimensions {there}; must lie on the nodes of {first.label}")
-        bottom = read_box(file, name, "length", file.data[name], (nodes.rows, nodes.columns), box)
-        if not np.isfinite(bottom).any():
-            file.refuse(name, f"{name} has no number at any of the nodes")
-        return (-bottom if np.nanmax(bottom) <= 0.0 else bottom), name
-    return None, ""
-
-
 def _slices(
     fields: _Fields, slots: NDArray[np.intp], box: tuple[NDArray[np.intp], NDArray[np.intp]], frame: Frame
 ) -> Iterator[Slot]:
@@ -199,20 +206,34 @@ def _slices(
     latitude, longitude = np.degrees(frame.latitude), np.degrees(frame.longitude)
     p = properties.pressure_from_depth(frame.depths[:, None, None], latitude)
     for n in map(int, slots):
-        S_A = fields.salinity.read(n, "salinity", *box)
-        if _standard_name(fields.salinity, n) != "sea_water_absolute_salinity":
-            S_A = properties.absolute_salinity(S_A, p, longitude, latitude)
-        given = fields.temperature.read(n, "temperature", *box)
+        S, given = fields.salinity.read(n, "salinity", *box), fields.temperature.read(n, "temperature", *box)
+        east, north = _currents(fields, n, box, S.shape)
+        _leave_out(fields, n, S, given, (east == 0.0) & (north == 0.0))
+        absolute = _standard_name(fields.salinity, n) == "sea_water_absolute_salinity"
+        S_A = S if absolute else properties.absolute_salinity(S, p, longitude, latitude)
         T, CT = _temperatures(_standard_name(fields.temperature, n), given, S_A, p)
-        if fields.u is None or fields.v is None:
-            still = np.zeros_like(T)
-            yield Slot(T, S_A, CT, still, still)
-            continue
-        east, north = fields.u.read(n, "velocity", *box), fields.v.read(n, "velocity", *box)
-        if not fields.geographic:
-            angle = fields.u.places[n][0].nodes.angle[np.ix_(*box)]
-            east, north = to_east_and_north(east, north, angle)
         yield Slot(T, S_A, CT, east, north)
+
+
+def _currents(
+    fields: _Fields, n: int, box: tuple[NDArray[np.intp], NDArray[np.intp]], shape: tuple[int, ...]
+) -> tuple[Array, Array]:
+    if fields.u is None or fields.v is None:
+        return np.zeros(shape), np.zeros(shape)
+    east, north = fields.u.read(n, "velocity", *box), fields.v.read(n, "velocity", *box)
+    require_speed(fields.u.first.file, fields.u.first.variable, east, north)
+    if fields.geographic:
+        return east, north
+    return to_east_and_north(east, north, fields.u.places[n][0].nodes.angle[np.ix_(*box)])
+
+
+def _leave_out(fields: _Fields, n: int, S: Array, given: Array, still: NDArray[np.bool_]) -> None:
+    """Leave out what is no water by the look of the field, or refuse it."""
+    salinity, temperature = fields.salinity.places[n][0], fields.temperature.places[n][0]
+    if "salinity" not in salinity.file.units:
+        require_salinity(salinity.file, salinity.variable, S)
+    wrong = left_out((salinity.file, salinity.variable), (temperature.file, temperature.variable), S, given, still)
+    S[wrong] = np.nan
 
 
 def _standard_name(series: Series, n: int) -> str:
@@ -241,7 +262,7 @@ def _notes(fields: _Fields, frame: Frame, bottom: str, count: int) -> dict[str, 
     notes = {
         "temperature": _taken(fields.temperature, "potential temperature"),
         "salinity": _taken(fields.salinity, "practical salinity"),
-        "bottom": bottom or "the deepest level with water",
+        "bottom": bottom,
     }
     if u is None or v is None:
         notes["currents"] = "at rest, as asked"

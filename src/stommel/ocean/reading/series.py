@@ -90,9 +90,12 @@ def same_nodes(first: Nodes, other: Nodes) -> bool:
         return True
     if first.latitude.shape != other.latitude.shape:
         return False
+    holes = np.isnan(first.latitude) | np.isnan(first.longitude)
+    if not np.array_equal(holes, np.isnan(other.latitude) | np.isnan(other.longitude)):
+        return False
     around = (first.longitude - other.longitude + np.pi) % (2.0 * np.pi) - np.pi
     apart = np.maximum(np.abs(first.latitude - other.latitude), np.abs(around) * np.cos(first.latitude))
-    return bool(apart.max() < _NODE_TOLERANCE)
+    return bool(np.all(apart[~holes] < _NODE_TOLERANCE))
 
 
 @dataclass(frozen=True)
@@ -120,7 +123,9 @@ class Series:
         found = numbers_at(layout, quantity, slot, j, i)
         if not np.isfinite(found).any():
             when = f" at {clock.text(float(self.times[n]))}" if layout.time is not None else ""
-            layout.file.refuse(layout.variable, f"{layout.variable} has no number{when}: all values are missing")
+            said = layout.file.tally.told().get(layout.variable)
+            why = "all values are missing" if said is None else f"all values are missing, {said}"
+            layout.file.refuse(layout.variable, f"{layout.variable} has no number{when}: {why}")
         return found
 
 
@@ -160,14 +165,16 @@ def check_same_times(first: Series, other: Series) -> None:
     )
 
 
-def numbers_at(layout: Layout, quantity: str, slot: int, j: Indices, i: Indices) -> Array:
-    """Read one time of a variable at rows and columns (level, j, i); no more of the file is read."""
+def numbers_at(layout: Layout, quantity: str, slot: int, j: Indices, i: Indices, *, top: bool = False) -> Array:
+    """Read one time of a variable at rows and columns (level, j, i), or its top level; no more of the file is read."""
     nodes = layout.nodes
     array = layout.file.data[layout.variable]
     if layout.time is not None:
         array = array.isel({layout.time: slot})
+    if top:
+        array = array.isel({layout.depth: [int(layout.order[0])]})
     found = read_box(layout.file, layout.variable, quantity, array, (nodes.rows, nodes.columns), (j, i), layout.depth)
-    return found[layout.order]
+    return found if top else found[layout.order]
 
 
 def read_box(

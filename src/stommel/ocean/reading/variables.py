@@ -1,8 +1,9 @@
 """Finding the variables of a CF file by what they are, and reading their numbers in SI units."""
 
-import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+import zlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import prod
 from typing import Any, NoReturn
 
 import numpy as np
@@ -10,6 +11,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from stommel.errors import FileError, Problem
+from stommel.files.sentences import shown
+from stommel.ocean.reading.stores import REASONS, first_line
+from stommel.ocean.reading.tally import Tally, share
+from stommel.ocean.reading.units import UNITS, plain
+from stommel.ocean.reading.unpacking import ValidRange, unpacked, valid_ranges
 
 Array = NDArray[np.float64]
 
@@ -41,46 +47,19 @@ STANDARD_NAMES: dict[str, tuple[str, ...]] = {
 OWN_NAMES = (*STANDARD_NAMES, "time", "depth")
 """What `names` may rename."""
 
-_UNITS: dict[str, dict[str, tuple[float, float]]] = {
-    "temperature": {
-        **dict.fromkeys(("degc", "celsius", "degree_c", "degrees_c", "deg_c", "c", "degree_celsius"), (1.0, 0.0)),
-        "degrees_celsius": (1.0, 0.0), "°c": (1.0, 0.0), "k": (1.0, -273.15), "kelvin": (1.0, -273.15),
-        "degk": (1.0, -273.15),
-    },
-    "salinity": {
-        **dict.fromkeys(
-            ("1", "1e-3", "1e-03", "0.001", "10-3", "psu", "pss-78", "pss", "g kg-1", "g/kg", "ppt", "‰"), (1.0, 0.0)
-        ),
-        "kg kg-1": (1000.0, 0.0), "kg/kg": (1000.0, 0.0),
-    },
-    "velocity": {
-        **dict.fromkeys(("m s-1", "m/s", "ms-1"), (1.0, 0.0)),
-        **dict.fromkeys(("cm s-1", "cm/s"), (0.01, 0.0)),
-        **dict.fromkeys(("mm s-1", "mm/s"), (0.001, 0.0)),
-    },
-    "length": {"m": (1.0, 0.0), "km": (1000.0, 0.0), "cm": (0.01, 0.0)},
-    "length_of_map": {"m": (1.0, 0.0), "km": (1000.0, 0.0), "cm": (0.01, 0.0)},
-    "angle": {
-        **dict.fromkeys(
-            ("degree", "degrees", "deg", "degree_north", "degrees_north", "degree_n", "degrees_n", "degree_east",
-             "degrees_east", "degree_e", "degrees_e"),
-            (np.pi / 180.0, 0.0),
-        ),
-        "radian": (1.0, 0.0), "radians": (1.0, 0.0), "rad": (1.0, 0.0),
-    },
-}  # fmt: skip
-"""Factor and summand to SI (temperature: deg C) by quantity and unit."""
-
 _SENSIBLE = {
     "temperature": (-5.0, 42.0),
     "salinity": (0.0, 42.0),
     "velocity": (-20.0, 20.0),
     "length": (-12000.0, 12000.0),
 }
-"""What seawater can have, in the units above; beyond it lie fill values that nothing marks."""
-
-_NO_NUMBER = 1e30
-"""netCDF writes 9.97e36 where nothing was written."""
+"""What seawater can have, in SI; beyond it lie fill values that nothing marks."""
+_OVERSHOOT = {"salinity": 0.5}
+"""By how much a model's numerics may leave that; such numbers count as its ends."""
+_MOST_NUMBERS = 4e7
+"""The most nodes or times of one file: what a header promises is looked at before memory is asked for it."""
+_MOST_AT_ONCE = 5e8
+"""The most numbers that are read at once, a piece in which a file is packed among them."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +69,11 @@ class File:
     name: str
     data: xr.Dataset
     names: Mapping[str, str]
+    units: Mapping[str, str] = field(default_factory=dict)
+    """Units that the user states, by what they are of."""
+    tally: Tally = field(default_factory=Tally)
+    _ranges: dict[str, ValidRange | None] = field(default_factory=dict)
+    """How the valid range of each variable is meant."""
 
     def refusal(self, key: str, message: str) -> FileError:
         """Return the error that `key` of this file is not usable."""
@@ -138,66 +122,105 @@ class File:
         if not np.issubdtype(raw.dtype, np.number):
             self.refuse(variable, f"{variable} holds {raw.dtype}; must hold numbers")
         try:
-            found = unpacked(raw, self.data[variable].attrs) * factor + summand
-        except (ValueError, TypeError) as error:
-            self.refuse(
-                variable, f"{variable} cannot be unpacked by its scale_factor, add_offset and valid_range: {error}"
-            )
+            stored, found = unpacked(raw, self.data[variable].attrs)
+            sensible = [(end - summand) / factor for end in _SENSIBLE.get(quantity, (-np.inf, np.inf))]
+            self._mask_invalid(variable, stored, found, sensible)
+        except (ValueError, TypeError, OverflowError) as error:
+            self.refuse(variable, f"{variable} cannot be unpacked: {' '.join(str(error).split())}")
+        found = np.asarray(found * factor + summand)
         if quantity in _SENSIBLE:
-            low, high = _SENSIBLE[quantity]
-            wrong = found[(found < low) | (found > high)]
-            if wrong.size:
-                self.refuse(
-                    variable,
-                    f"{variable} has the value {wrong.flat[0]:g}: must be between {low:g} and {high:g}; "
-                    "is it a fill value that _FillValue does not name, or are the units wrong?",
-                )
+            self._require_sensible(variable, quantity, found)
         return found
+
+    def _mask_invalid(self, variable: str, stored: NDArray[Any], found: Array, sensible: Sequence[float]) -> None:
+        """Leave out what the file itself calls invalid.
+
+        The first numbers that are read settle in which units it does: the likely ones, unless these leave more numbers
+        that no sea has (`sensible`, as unpacked), or leave less than half and the others do not.
+        """
+        if variable not in self._ranges:
+            ways = valid_ranges(self.data[variable].attrs, self.data[variable].dtype)
+            strange = (found < sensible[0]) | (found > sensible[1])
+            masks = [way.masked(stored, found) for way in ways]
+            cost = [(int((strange & ~mask).sum()), bool(mask.sum() > 0.5 * np.isfinite(found).sum())) for mask in masks]
+            self._ranges[variable] = ways[cost.index(min(cost))] if ways else None
+        way = self._ranges[variable]
+        if way is None:
+            return
+        outside = way.masked(stored, found)
+        self.tally.add(variable, f"outside {way}, and left out", int(outside.sum()), int(np.isfinite(found).sum()))
+        found[outside] = np.nan
+
+    def _require_sensible(self, variable: str, quantity: str, found: Array) -> None:
+        """Refuse numbers that no sea has; what only a model's numerics did is set right, and told."""
+        low, high = _SENSIBLE[quantity]
+        slack = _OVERSHOOT.get(quantity, 0.0)
+        outside, count = (found < low) | (found > high), int(np.isfinite(found).sum())
+        wrong = found[(found < low - slack) | (found > high + slack)]
+        if wrong.size:
+            self.refuse(
+                variable,
+                f"{variable} has the value {wrong.flat[0]:g}, and {share(wrong.size, count)} of its numbers are not "
+                f"between {low:g} and {high:g}; is it a fill value that _FillValue does not name, or are the units "
+                "wrong?",
+            )
+        ends = f"a little beyond {low:g} to {high:g}, and set to the end"
+        self.tally.add(variable, ends, int(outside.sum()), count)
+        np.clip(found, low, high, out=found, where=outside)
 
     def raw(self, variable: str, values: xr.DataArray | None = None) -> NDArray[Any]:
         """Read a variable, or a part of it, as it is stored."""
         array = self.data[variable] if values is None else values
+        self._require_size(variable, array, _MOST_NUMBERS if values is None else _MOST_AT_ONCE)
         try:
             return np.asarray(array.values)
-        except (OSError, RuntimeError, ValueError, MemoryError) as error:
-            reason = " ".join(str(error).split()) or type(error).__name__
-            self.refuse(variable, f"{variable} cannot be read ({reason}); the file is damaged or was cut short")
+        except (*REASONS, MemoryError, zlib.error) as error:
+            self.refuse(
+                variable, f"{variable} cannot be read ({first_line(error)}); the file is damaged or was cut short"
+            )
+
+    def require_count(self, variable: str, count: int, what: str) -> None:
+        """Refuse more nodes or times than are read of one file, before memory is asked for them."""
+        if count > _MOST_NUMBERS:
+            self.refuse(
+                variable,
+                f"{variable} leads to {count:.3g} {what}; at most {_MOST_NUMBERS:.3g} are read: cut the file to the "
+                "mission's region first",
+            )
+
+    def _require_size(self, variable: str, array: xr.DataArray, most: float) -> None:
+        """Look at how much is promised before memory is asked for it."""
+        pieces = self.data[variable].encoding
+        for size, what in (
+            (array.size, "numbers"),
+            (prod(pieces.get("chunksizes") or pieces.get("chunks") or ()), "numbers in one piece"),
+        ):
+            limit = most if what == "numbers" else _MOST_AT_ONCE
+            if size > limit:
+                self.refuse(
+                    variable,
+                    f"{variable} has {size:.3g} {what}; at most {limit:.3g} are read: cut the file to the mission's "
+                    "region and time first",
+                )
 
     def _unit(self, variable: str, quantity: str) -> tuple[float, float]:
-        given = str(self.data[variable].attrs.get("units", "")).strip()
-        known = _UNITS[quantity]
+        stated = self._stated_unit(variable)
+        given = stated or str(self.data[variable].attrs.get("units", "")).strip()
+        known = UNITS[quantity]
         if not given:
-            self.refuse(variable, f"{variable} has no units; must be one of {', '.join(known)}")
-        unit = _plain(given)
+            self.refuse(
+                variable,
+                f"{variable} has no units; must be one of {', '.join(known)}; units says what the file leaves out",
+            )
+        unit = plain(given)
         if unit not in known:
-            self.refuse(variable, f"{variable} has the units {given!r}; must be one of {', '.join(known)}")
+            self.refuse(variable, f"{variable} has the units {shown(given)}; must be one of {', '.join(known)}")
         return known[unit]
 
-
-def _plain(unit: str) -> str:
-    """Write a unit the short way: `meter second-1` is `m s-1`."""
-    text = unit.lower().replace("**", "").replace("^", "").replace(".", " " if not re.search(r"\d\.\d", unit) else ".")
-    text = re.sub(r"\bcentimet(?:er|re)s?\b", "cm", text)
-    text = re.sub(r"\bkilomet(?:er|re)s?\b", "km", text)
-    text = re.sub(r"\bmet(?:er|re)s?\b", "m", text)
-    text = re.sub(r"\bsec(?:ond)?s?(?=\b|-)", "s", text)
-    return re.sub(r"\s+", " ", text).strip()
-
-
-def unpacked(raw: NDArray[Any], attributes: Mapping[str, Any]) -> Array:
-    """Numbers of a packed variable (CF conventions, section 8.1, and 2.5.1 on missing data)."""
-    found: Array = np.array(raw, dtype=np.float64)
-    missing = ~np.isfinite(found) | (np.abs(found) > _NO_NUMBER)
-    for name in ("_FillValue", "missing_value"):
-        for value in np.atleast_1d(attributes.get(name, [])):
-            missing |= raw == value
-    bounds = np.atleast_1d(attributes.get("valid_range", []))
-    low, high = bounds if bounds.size == 2 else (attributes.get("valid_min"), attributes.get("valid_max"))
-    if low is not None:
-        missing |= raw < low
-    if high is not None:
-        missing |= raw > high
-    found = np.asarray(found * np.float64(attributes.get("scale_factor", 1.0)))
-    found += np.float64(attributes.get("add_offset", 0.0))
-    found[missing] = np.nan
-    return found
+    def _stated_unit(self, variable: str) -> str | None:
+        """Unit that the user states of a variable."""
+        for what, unit in self.units.items():
+            known = self.find(what, needed=False) if what in STANDARD_NAMES else self.names.get(what, what)
+            if known == variable:
+                return unit
+        return None

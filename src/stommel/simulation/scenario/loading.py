@@ -96,6 +96,7 @@ def _ocean(scenario: ScenarioFile, folder: Path) -> Ocean:
     return Ocean.open(
         choice.file,
         names=choice.names,
+        units=choice.units,
         bounds=choice.bounds_deg,
         between=_between(scenario),
         at_rest=choice.at_rest,

@@ -1,11 +1,12 @@
 """What a scenario file may say: a plan, and the world that it is flown in."""
 
-from datetime import UTC, datetime
+from datetime import UTC
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
 from stommel.files.fields import Finite
+from stommel.files.kinds import Moment
 from stommel.files.ranges import GREATEST_SEED, between
 from stommel.mission.plan import Plan, Position
 from stommel.simulation.scenario.world_tables import (
@@ -35,7 +36,7 @@ class ScenarioFile(Plan):
     changes: dict[str, Finite] = Field(default_factory=dict)
     """Numbers of the vehicle file that this mission changes, by their dotted keys."""
     physics: Literal["paper", "full"] = "full"
-    start_time: datetime
+    start_time: Moment
     """With its time zone."""
     duration_days: Annotated[float, between(0.0005, 730)]
     """The mission ends here at the latest."""

@@ -4,6 +4,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from stommel.errors import StommelError
+from stommel.files.nearest import did_you_mean
 from stommel.files.opening import names_file
 from stommel.files.toml_reader import read_toml
 
@@ -31,7 +32,10 @@ def mission_path(name: str) -> Path:
     names = shipped_missions()
     if name in names:
         return _folder() / f"{name}.toml"
-    raise UnknownMissionError(f"mission {name!r} is neither a file nor a shipped mission; shipped: {', '.join(names)}")
+    raise UnknownMissionError(
+        f"mission {name!r} is neither a file nor a shipped mission{did_you_mean(name, names)} shipped: "
+        f"{', '.join(names)}"
+    )
 
 
 def _folder() -> Path:

@@ -5,6 +5,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from stommel.files.fields import Finite, Name, Point, Table
+from stommel.files.kinds import FileNames, Flag
 from stommel.files.ranges import DepthOrZero, Seconds, Share, between
 
 FieldPart = Annotated[float, between(-5, 5)]
@@ -133,7 +134,7 @@ class OceanChoice(Table):
 
     name: Name | None = None
     """An analytic ocean; see `stommel ocean`."""
-    file: str | tuple[str, ...] | None = None
+    file: FileNames | None = None
     """A CF NetCDF file instead, several, or a pattern; or a profile (.csv) that stands everywhere."""
     outside: Policy = "error"
     """Beyond the data in space or time: stop, hold the nearest values, or go over to `climatology`."""
@@ -149,7 +150,9 @@ class OceanChoice(Table):
     """South, north, west and east of the region to read; all of the file if left out."""
     names: dict[str, str] = Field(default_factory=dict)
     """Names of the file's variables where their standard names do not tell."""
-    at_rest: bool = False
+    units: dict[str, str] = Field(default_factory=dict)
+    """Units of the file's variables where the file does not tell."""
+    at_rest: Flag = False
     """Read no currents."""
     parameters: dict[str, Finite] = Field(default_factory=dict)
     """Numbers of an analytic ocean or of a profile's."""
@@ -158,7 +161,7 @@ class OceanChoice(Table):
     def _one_ocean(self) -> Self:
         if (self.name is None) == (self.file is None):
             raise ValueError("ocean: give either name or file")
-        for_files = {"bounds_deg": self.bounds_deg, "names": self.names, "at_rest": self.at_rest}
+        for_files = {"bounds_deg": self.bounds_deg, "names": self.names, "units": self.units, "at_rest": self.at_rest}
         for key, value in for_files.items():
             if self.name is not None and value:
                 raise ValueError(f"ocean.{key}: is for an ocean from a file; ocean.name = {self.name!r} is analytic")

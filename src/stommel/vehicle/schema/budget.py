@@ -7,6 +7,7 @@ from typing import Annotated, Self
 from pydantic import model_validator
 
 from stommel.files.fields import Name, Point, Table
+from stommel.files.kinds import Flag
 from stommel.files.ranges import PartSize, ZeroOr
 from stommel.vehicle.schema.hull import Bay, Hull
 
@@ -27,11 +28,11 @@ class Part(Table):
     """Water that it displaces by itself. A dry part displaces none: the hull around it does."""
     position_m: Point
     """Its centre, of mass and of volume alike; a moving part's with the moving mass at neutral."""
-    moving: bool = False
+    moving: Flag = False
     """Whether it belongs to the moving mass."""
-    ballast: bool = False
+    ballast: Flag = False
     """Whether it belongs to the ballast system; its volume is that of neutral ballast."""
-    trim_weight: bool = False
+    trim_weight: Flag = False
     """Whether it is there for trim alone, so that some or all of it may be taken out."""
     box_mm: tuple[PartSize, PartSize, PartSize] | None = None
     """Length, width and height of a homogeneous box."""

@@ -5,6 +5,7 @@ from typing import Annotated, Self
 from pydantic import Field, model_validator
 
 from stommel.files.fields import Table, ordered
+from stommel.files.kinds import Flag
 from stommel.files.ranges import (
     Current,
     Efficiency,
@@ -107,7 +108,7 @@ class Brake(Table):
     """Power while its coil is fed."""
     release_ms: Annotated[float, between(0, 5000)]
     """From feeding the coil until the shaft is free."""
-    normally_closed: bool = True
+    normally_closed: Flag = True
     """Whether it holds without power; otherwise it must be fed to hold."""
 
 

@@ -6,6 +6,7 @@ from typing import Annotated, Self
 from pydantic import model_validator
 
 from stommel.files.fields import Name, Table
+from stommel.files.kinds import Flag
 from stommel.files.ranges import (
     BodyLength,
     Compressibility,
@@ -106,7 +107,7 @@ class Bay(Table):
     """Forward end, forward of the centre of buoyancy."""
     to_m: Coordinate
     """Aft end."""
-    flooded: bool = False
+    flooded: Flag = False
     holds: tuple[str, ...] = ()
 
     @model_validator(mode="after")

@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from stommel.files.fields import Table
+from stommel.files.kinds import Format
 from stommel.vehicle.schema.actuators import Actuators
 from stommel.vehicle.schema.antenna import Antenna
 from stommel.vehicle.schema.budget import Part
@@ -27,7 +28,7 @@ def _one_printable_line(text: str) -> str:
 class VehicleFile(Table):
     """A glider, as its file describes it."""
 
-    format: Literal[1] = 1
+    format: Format = 1
     name: Annotated[str, Field(max_length=80), AfterValidator(_one_printable_line)]
     summary: str = ""
     notes: tuple[str, ...] = ()

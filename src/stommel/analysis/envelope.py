@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.analysis.flight import SteadyFlight, flight_from
-from stommel.analysis.limits import reachable
+from stommel.analysis.limits import Reason, excesses, reachable
 from stommel.analysis.request import RequestError
 from stommel.analysis.steady_equations import ALPHA, CONVERGED, QUANTITIES, R_PX
 from stommel.analysis.trim import trim
@@ -153,6 +153,8 @@ class RangesNeeded:
     """Flight that needs the most travel."""
     heaviest: SteadyFlight
     """Flight that needs the most volume."""
+    stalled: tuple[SteadyFlight, ...] = ()
+    """Those of the wanted flights that lie beyond the stall angle, which no range of an actuator reaches."""
 
     def as_row(self) -> dict[str, object]:
         """The ranges in words with units."""
@@ -163,6 +165,7 @@ class RangesNeeded:
             "ballast_volume_choice_ml": self.ballast_choice_ml,
             "most_travel_at": {"speed_m_s": self.furthest.V, "pitch_deg": degrees(self.furthest.theta)},
             "most_volume_at": {"speed_m_s": self.heaviest.V, "pitch_deg": degrees(self.heaviest.theta)},
+            "beyond_stall": [{"speed_m_s": one.V, "pitch_deg": degrees(one.theta)} for one in self.stalled],
         }
 
 
@@ -207,6 +210,9 @@ def ranges_needed(
         ballast_choice_ml=ceil(volume / volume_step_ml) * volume_step_ml,
         furthest=furthest,
         heaviest=heaviest,
+        stalled=tuple(
+            flight for flight in flights if any(one.reason is Reason.STALL for one in excesses(vehicle, flight))
+        ),
     )
 
 

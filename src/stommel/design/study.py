@@ -35,6 +35,7 @@ from stommel.analysis import (
     trim_table,
     turn,
 )
+from stommel.analysis.limits import Excess, excesses
 from stommel.bench.speed_study import SpeedStudy, speed_study
 from stommel.design.budget import BudgetStudy, budget_study
 from stommel.design.drives import DriveStudy, drive_study
@@ -120,10 +121,17 @@ class DesignStudy:
     unanswered: tuple[tuple[str, str], ...]
     """Parts of this study that could not be answered, each with the reason."""
 
+    @property
+    def design_flight_excesses(self) -> tuple[Excess, ...]:
+        """Limits of the file that the design flight breaks: modes and loci are about it all the same."""
+        return excesses(self.vehicle, self.design_flight)
+
     def as_json(self) -> dict[str, Any]:
         """What `stommel design` answers, in words with units; its other parts have verbs of their own."""
         return {
             "vehicle": self.vehicle.name,
+            "design_flight": self.design_flight.as_row()
+            | {"beyond": [str(excess) for excess in self.design_flight_excesses]},
             "specification": [asdict(row) for row in self.specification],
             "tables": [{"title": table.title, "rows": [row.as_row() for row in table.rows]} for table in self.tables],
             "envelope": None if self.envelope is None else [row.as_row() for row in self.envelope],

@@ -119,7 +119,8 @@ def _show_needs(needs: "RangesNeeded") -> None:
             "ballast": f"±{needs.ballast_ml:.1f} ml; choose ±{volume:g} ml",
         },
         [
-            f"beyond the stall angle, out of reach of any range: {flight.V:g} m/s at pitch {degrees(flight.theta):.1f} deg"
+            "beyond the stall angle, out of reach of any range: "
+            f"{flight.V:g} m/s at pitch {degrees(flight.theta):.1f} deg"
             for flight in needs.stalled
         ],
     )

@@ -10,6 +10,7 @@ from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
 from stommel.cli.output import show_notes, show_table, show_values
 from stommel.cli.paths import file_parser
+from stommel.cli.vehicle_check import show_vehicle_check
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
@@ -88,6 +89,7 @@ def _show(study: "DesignStudy") -> None:
     show_table(title, ["mode", "real\n1/s", "imaginary\n1/s", "time to half\ns"], rows)
     show_notes((f"this flight {excess}" for excess in study.design_flight_excesses), "note")
     show_notes(study.notes, "note")
+    show_vehicle_check(study.check.as_row())
     if study.unanswered:
         parts = ", ".join(part for part, _ in study.unanswered)
         show_notes([f"{parts}: the report and --json say why"], "not answered")

@@ -13,6 +13,7 @@ from stommel.cli.options import JsonOption
 from stommel.cli.output import number, show_table, show_values
 from stommel.cli.paths import PlotsOption, file_parser
 from stommel.cli.status import INTERRUPTED
+from stommel.cli.vehicle_check import show_vehicle_check, vehicle_check
 from stommel.errors import OutputError
 from stommel.files.units import counted
 
@@ -69,6 +70,7 @@ def simulate(
     with _interruptible("before the end of the mission; nothing was written"):
         flown, seconds = _fly(loaded, speed_up)
     row = summary(flown)
+    row["vehicle_check"] = vehicle_check(loaded.vehicle)
     row["flight_s"] = seconds
     row["speed_up"] = None if seconds is None else row["days"] * 86400.0 / seconds
     with _interruptible("while writing; the files that are there are whole"):
@@ -198,6 +200,7 @@ def _show(row: dict[str, Any]) -> None:
     show_values(f"{row['name']}: {row['vehicle']} in {row['ocean']}", values)
     if row["energy_wh"] is not None:
         _show_energy(row["energy_wh"])
+    show_vehicle_check(row["vehicle_check"])
 
 
 def _duration(days: float) -> str:

@@ -67,10 +67,15 @@ def _show_numbers(answer: dict[str, Any]) -> None:
 
 @vehicle_app.command("check")
 def check(vehicle: VehicleArgument, as_json: JsonOption = False) -> None:
-    """Check a vehicle file; every problem is one line with the key and what is allowed."""
+    """Check a vehicle file, and hold its numbers against each other: errors, warnings, and what is unknown.
+
+    A file that is no possible vehicle is refused, each problem in a line with the key and what is allowed.
+    """
+    from stommel.design.checking import cross_check
     from stommel.vehicle import stated_numbers
 
     glider = load(vehicle)
+    found = cross_check(glider)
     d = glider.description
     kinds = [origin.kind for _, _, origin in stated_numbers(glider)]
     missing = list(d.unknown_lateral())
@@ -82,14 +87,16 @@ def check(vehicle: VehicleArgument, as_json: JsonOption = False) -> None:
         "assumptions": kinds.count("assumption"),
         "not_stated": kinds.count("not stated"),
         "unknown_lateral": missing,
+        "errors": [finding.as_row() for finding in found.errors],
+        "warnings": [finding.as_row() for finding in found.warnings],
     }
     finish(summary, None, as_json, _show_check)
 
 
 def _show_check(summary: dict[str, Any]) -> None:
-    missing = summary["unknown_lateral"]
+    missing, errors, warnings = summary["unknown_lateral"], summary["errors"], summary["warnings"]
     show_values(
-        f"{summary['name']}: the file is sound",
+        f"{summary['name']}: {counted(len(errors), 'error')}, {counted(len(warnings), 'warning')}",
         {
             "mass": number(summary["mass_kg"], 2, "kg"),
             "numbers": f"{summary['numbers']}: {summary['sourced']} with a source, "
@@ -97,6 +104,8 @@ def _show_check(summary: dict[str, Any]) -> None:
             "planes": f"vertical only; missing {', '.join(missing)}" if missing else "vertical and lateral",
         },
     )
+    for label, found in (("error", errors), ("warning", warnings)):
+        show_notes((f"{finding['name']}: {finding['message']}" for finding in found), label)
 
 
 @vehicle_app.command("new")

@@ -38,6 +38,7 @@ from stommel.analysis import (
 from stommel.analysis.limits import Excess, excesses
 from stommel.bench.speed_study import SpeedStudy, speed_study
 from stommel.design.budget import BudgetStudy, budget_study
+from stommel.design.checking import CrossCheck, cross_check
 from stommel.design.drives import DriveStudy, drive_study
 from stommel.design.endurance import EnergyStudy, energy_study
 from stommel.design.engine.study import EngineStudy, engine_study
@@ -114,6 +115,8 @@ class DesignStudy:
     """Drives of moving mass and rudder."""
     budget: BudgetStudy | None
     """Masses and volumes of the parts, in the reference water."""
+    check: CrossCheck
+    """What the numbers of the file say against each other."""
     numbers: tuple[tuple[str, object, Provenance], ...]
     """Every number of the vehicle file with its origin."""
     notes: tuple[str, ...]
@@ -140,6 +143,7 @@ class DesignStudy:
             **self.modes.as_row(),
             "authority": self.authority.as_row(),
             "turns": [flight.as_turn() for flight in self.turns],
+            "vehicle_check": self.check.as_row(),
             "notes": list(self.notes),
             "unanswered": dict(self.unanswered),
         }
@@ -231,6 +235,7 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
         motor_speed=motor_speed,
         drives=drives,
         budget=budget,
+        check=cross_check(vehicle),
         numbers=tuple(stated_numbers(vehicle)),
         notes=vehicle.description.notes,
         unanswered=tuple(interview.unanswered),

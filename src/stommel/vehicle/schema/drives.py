@@ -106,6 +106,8 @@ class RudderMachinery(Table):
 
     chord_mm: Positive
     """Chord of the blade."""
+    span_mm: Positive | None = None
+    """Height of the blade, from the hull or its own root to the tip."""
     stock_chord_fraction: Share
     """Where the stock passes through the blade: distance from the leading edge over the chord."""
     seal_friction_mn_m: NotNegative

@@ -17,6 +17,7 @@ from stommel.analysis.wings_level import trim_at_ballast
 from stommel.dynamics.packing import pack, reference_water
 from stommel.seawater.water import Water
 from stommel.vehicle import PAPER, Physics, Vehicle
+from stommel.vehicle.missing_table import missing_table
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,10 @@ def flight_envelope(
     """
     engine = vehicle.description.actuators.buoyancy
     if engine is None:
-        raise RequestError(f"{vehicle.name}: an envelope needs the table [actuators.buoyancy] with volume_ml")
+        raise RequestError(
+            f"{vehicle.name}: an envelope needs the table [actuators.buoyancy] with volume_ml; "
+            f"{missing_table('actuators.buoyancy')}"
+        )
     if pitches_deg is None:
         steep = [1.0, 2.0, 3.0, 4.0, *range(5, 90, 5), 88.0]
         pitches_deg = [*(-p for p in reversed(steep)), *steep]

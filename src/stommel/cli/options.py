@@ -24,8 +24,12 @@ PhysicsOption = Annotated[
     PhysicsChoice,
     typer.Option("--physics", help="The paper's model, or all that the vehicle file adds to it (bladder, oil, stall)."),
 ]
-SpeedOption = Annotated[float, typer.Option("--speed", help="Speed along the path [m/s].")]
-PitchOption = Annotated[float, typer.Option("--pitch", help="Pitch [deg]; negative dives.")]
+SpeedOption = Annotated[
+    float | None, typer.Option("--speed", help="Speed along the path [m/s]; the specification's design speed.")
+]
+PitchOption = Annotated[
+    float | None, typer.Option("--pitch", help="Pitch [deg]; negative dives; the specification's, diving.")
+]
 IgnoreLimitsOption = Annotated[bool, typer.Option("--ignore-limits", help="Answer even beyond the actuators' limits.")]
 ForceOption = Annotated[bool, typer.Option("--force", help="Replace an existing file.")]
 

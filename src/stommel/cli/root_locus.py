@@ -4,8 +4,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stommel.cli.design_flight import design_pitch, design_speed
 from stommel.cli.finish import finish
-from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.options import (
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    PitchOption,
+    SpeedOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
 from stommel.cli.output import number, show_table
 from stommel.cli.paths import PlotOption
 
@@ -28,8 +38,8 @@ def root_locus(
     start: Annotated[float, typer.Option("--from", help="First value.")],
     stop: Annotated[float, typer.Option("--to", help="Last value.")],
     points: Annotated[int, typer.Option("--points", help="How many values.")] = 41,
-    speed: Annotated[float, typer.Option("--speed", help="Speed along the path [m/s].")] = 0.4,
-    pitch: Annotated[float, typer.Option("--pitch", help="Pitch [deg].")] = -35.0,
+    speed: SpeedOption = None,
+    pitch: PitchOption = None,
     physics: PhysicsOption = PhysicsChoice.paper,
     plot: PlotOption = None,
     as_json: JsonOption = False,
@@ -42,8 +52,9 @@ def root_locus(
 
     glider = load(vehicle)
     locus = follow(
-        glider, over, start, stop, points=points, speed_m_s=speed, pitch_deg=pitch, physics=physics_of(physics)
-    )
+        glider, over, start, stop, points=points, speed_m_s=design_speed(glider, speed),
+        pitch_deg=design_pitch(glider, pitch), physics=physics_of(physics),
+    )  # fmt: skip
     written = []
     if plot is not None:
         from stommel.figures.saving import save_figure_as

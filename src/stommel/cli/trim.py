@@ -4,12 +4,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from stommel.cli.design_flight import design_pitch, design_speed
 from stommel.cli.finish import finish
 from stommel.cli.options import (
     IgnoreLimitsOption,
     JsonOption,
     PhysicsChoice,
     PhysicsOption,
+    PitchOption,
     SpeedOption,
     VehicleArgument,
     load,
@@ -25,8 +27,8 @@ if TYPE_CHECKING:
 @one_question()
 def trim(
     vehicle: VehicleArgument,
-    speed: SpeedOption,
-    pitch: Annotated[float | None, typer.Option("--pitch", help="Pitch [deg]; negative dives.")] = None,
+    speed: SpeedOption = None,
+    pitch: PitchOption = None,
     glide_path: Annotated[
         float | None, typer.Option("--glide-path", help="Angle of the path instead of the pitch [deg].")
     ] = None,
@@ -43,8 +45,8 @@ def trim(
     glider = load(vehicle)
     flight = solve(
         glider,
-        speed_m_s=speed,
-        pitch_deg=pitch,
+        speed_m_s=design_speed(glider, speed),
+        pitch_deg=pitch if glide_path is not None else design_pitch(glider, pitch),
         glide_path_deg=glide_path,
         physics=physics_of(physics),
         within_limits=not ignore_limits,

@@ -108,31 +108,57 @@ def _show_check(summary: dict[str, Any]) -> None:
         show_notes((f"{finding['name']}: {finding['message']}" for finding in found), label)
 
 
+_FILE = file_parser("NAME", ".toml")
+
+
+def _new_file(text: str) -> Path:
+    """A name stands for a file of that name in this folder."""
+    return _FILE(text if not text.strip() or Path(text).suffix else f"{text}.toml")
+
+
 @vehicle_app.command("new")
 def new(
     path: Annotated[
         Path,
-        typer.Argument(
-            metavar="FILE", parser=file_parser("FILE", ".toml"), help="The file to write, for example myglider.toml."
-        ),
+        typer.Argument(metavar="NAME", parser=_new_file, help="The file to write: myglider, or path/to/myglider.toml."),
     ],
-    like: Annotated[str, typer.Option("--from", help="Built-in vehicle to begin from.")] = "zju",
+    like: Annotated[
+        str, typer.Option("--from", metavar="VEHICLE", help="Vehicle to begin from, a built-in one or a file.")
+    ] = "zju",
+    sections: Annotated[
+        str | None,
+        typer.Option(
+            "--with",
+            metavar="SECTIONS",
+            help="Further sections, with commas between: hull, engine, drives, battery, parts, antenna. "
+            "A file that is there already gets them at its end.",
+        ),
+    ] = None,
     force: ForceOption = False,
     as_json: JsonOption = False,
 ) -> None:
-    """Begin a vehicle file from a built-in one."""
-    from stommel.files.whole import write_whole
-    from stommel.vehicle import UnknownVehicleError, builtin_names, builtin_text
+    """Begin a vehicle file: short, commented, every number an assumption copied from another vehicle.
 
-    if like not in builtin_names():
-        raise UnknownVehicleError(
-            f"--from {like}: no built-in vehicle of this name; there are {', '.join(builtin_names())}"
-        )
-    refuse_existing(path, force)
-    write_whole(path, builtin_text(like))
-    finish(
-        {"from": like},
-        [path],
-        as_json,
-        lambda _: typer.echo(f"a copy of {like}: edit it, then run: stommel vehicle check {path}"),
-    )
+    Example: stommel vehicle new myglider --from zju --with hull,engine
+    """
+    from stommel.files.whole import write_whole
+    from stommel.vehicle.lean_file import begun_from, lean_text, sections_of, with_sections
+
+    asked = sections_of(sections) if sections is not None else ()
+    source, called = begun_from(like)
+    adds = bool(asked) and path.exists() and not force
+    if adds:
+        from stommel.vehicle import vehicle_text
+
+        text = with_sections(vehicle_text(path), str(path), source, called, asked)
+    else:
+        refuse_existing(path, force)
+        text = lean_text(path.stem, source, called, asked)
+    write_whole(path, text)
+    answer = {"from": like, "sections": list(asked), "added": adds}
+    finish(answer, [path], as_json, lambda _: _show_new(path, called, asked if adds else ()))
+
+
+def _show_new(path: Path, called: str, added: tuple[str, ...]) -> None:
+    what = f"added {', '.join(added)}" if added else "begun"
+    typer.echo(f"{what} with numbers copied from {called}: edit it, then run: stommel vehicle check {path}")

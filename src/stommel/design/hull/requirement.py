@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from stommel.errors import StommelError
 from stommel.machinery.hull.buckling import RingSection
 from stommel.vehicle import Vehicle
+from stommel.vehicle.missing_table import missing_table
 from stommel.vehicle.schema import Hull
 
 
@@ -71,7 +72,7 @@ def requirement(
     """
     hull = vehicle.description.hull
     if hull is None:
-        raise HullError(f"{vehicle.name}: its file has no table [hull] to size")
+        raise HullError(f"{vehicle.name}: its file has no table [hull] to size; {missing_table('hull')}")
     notes: list[str] = []
     P, depth = _load(vehicle, hull, depth_m, pressure_mpa, notes)
     L = _checked_length(vehicle, hull, notes)

@@ -1,4 +1,4 @@
-"""`stommel vehicle new` begins a file that is short, whole and honest: every number an assumption copied from another."""
+"""`stommel vehicle new` begins a short, whole and honest file: every number an assumption, copied from another."""
 
 from pathlib import Path
 
@@ -106,8 +106,8 @@ def test_verbs_answer_for_the_sections_that_are_there(stommel: Command) -> None:
         (("mine", "--with", "hull,,engine"), ["no section ''"]),
         (("mine", "--with", "engine", "--from", "slocum"), ["slocum has no [engine]", "zju"]),
         (("mine", "--from", "nowhere"), ["nowhere"]),
-        (("mine.txt",), ["NAME", "mine.txt"]),
-        ((" ",), ["NAME", "names no file"]),
+        (("mine.txt",), ["FILE", "mine.txt"]),
+        ((" ",), ["FILE", "names no file"]),
         (("there",), ["there.toml: already exists; --force replaces it"]),
         (("full", "--with", "hull"), ["full.toml has [hull] already"]),
         (("broken", "--with", "hull"), ["broken.toml", "not valid TOML"]),

@@ -108,19 +108,20 @@ def _show_check(summary: dict[str, Any]) -> None:
         show_notes((f"{finding['name']}: {finding['message']}" for finding in found), label)
 
 
-_FILE = file_parser("NAME", ".toml")
+_FILE = file_parser("FILE", ".toml")
 
 
 def _new_file(text: str) -> Path:
-    """A name stands for a file of that name in this folder."""
-    return _FILE(text if not text.strip() or Path(text).suffix else f"{text}.toml")
+    """A bare name stands for a file of that name in this folder."""
+    bare = text.strip() and not set(text) & {".", "/", "\\"} and not Path(text).exists()
+    return _FILE(f"{text}.toml" if bare else text)
 
 
 @vehicle_app.command("new")
 def new(
     path: Annotated[
         Path,
-        typer.Argument(metavar="NAME", parser=_new_file, help="The file to write: myglider, or path/to/myglider.toml."),
+        typer.Argument(metavar="FILE", parser=_new_file, help="The file to write: myglider, or path/to/myglider.toml."),
     ],
     like: Annotated[
         str, typer.Option("--from", metavar="VEHICLE", help="Vehicle to begin from, a built-in one or a file.")

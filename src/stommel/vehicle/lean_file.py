@@ -13,7 +13,13 @@ from pydantic import BaseModel
 from stommel.errors import StommelError
 from stommel.files.docstrings import attribute_docstrings
 from stommel.files.table_keys import models_in
-from stommel.vehicle.loading import Vehicle, builtin_names, load_vehicle, vehicle_from_text
+from stommel.vehicle.loading import (
+    UnknownVehicleError,
+    Vehicle,
+    builtin_names,
+    load_vehicle,
+    vehicle_from_text,
+)
 from stommel.vehicle.schema import VehicleFile
 
 FIRST = (
@@ -87,7 +93,7 @@ def lean_text(name: str, like: Vehicle, called: str, sections: Sequence[str] = (
         f"# {', '.join(SECTIONS)}; stommel vehicle check THIS_FILE holds its numbers against each other.",
     ]
     for table in FIRST:
-        lines += _table_lines(table, like.document, None)
+        lines += _table_lines(table, like.document, None, lean=True)
     for section in _with_needed(sections, ()):
         lines += _section_lines(section, like, called, None)
     text = "\n".join(lines) + "\n"
@@ -120,8 +126,17 @@ def with_sections(text: str, origin: str, like: Vehicle, called: str, sections: 
 
 
 def begun_from(name: str) -> tuple[Vehicle, str]:
-    """The vehicle that `--from` names, and what to call it: a built-in one, or a file."""
-    return load_vehicle(name), name if name in builtin_names() else Path(name).name
+    """The vehicle that `--from` names, and what to call it: a built-in one, or a file.
+
+    Raises
+    ------
+    UnknownVehicleError, FileError
+        As `load_vehicle`.
+    """
+    try:
+        return load_vehicle(name), name if name in builtin_names() else Path(name).name
+    except UnknownVehicleError as error:
+        raise UnknownVehicleError(f"--from {name}: {error}") from None
 
 
 def _copied(called: str) -> str:
@@ -146,14 +161,23 @@ def _section_lines(section: str, like: Vehicle, called: str, stated: str | None)
             f"{', '.join(having)} (--from)"
         )
     for table in tables:
-        yield from _table_lines(table, like.document, stated)
+        yield from _table_lines(table, like.document, stated, lean=False)
 
 
-def _table_lines(table: str, document: Mapping[str, Any], stated: str | None) -> Iterator[str]:
-    """Lines of a table of a file, or of each of a list of tables; `stated` is said of its numbers."""
+def _table_lines(table: str, document: Mapping[str, Any], stated: str | None, *, lean: bool) -> Iterator[str]:
+    """Lines of a table of a file, or of each of a list of tables; `stated` is said of its numbers.
+
+    A `lean` table leaves out what the schema takes anyway.
+    """
     if table in document:
         (model,) = models_in(VehicleFile.model_fields[table].annotation)
-        yield from _lines(table, document[table], model, stated)
+        values = _without_defaults(document[table], model) if lean else document[table]
+        yield from _lines(table, values, model, stated)
+
+
+def _without_defaults(values: Mapping[str, Any], model: type[BaseModel]) -> dict[str, Any]:
+    """A table without those keys of its own whose value is that of the schema."""
+    return {key: value for key, value in values.items() if value != model.model_fields[key].default}
 
 
 def _lines(heading: str, value: Any, model: type[BaseModel], stated: str | None) -> Iterator[str]:
@@ -173,7 +197,7 @@ def _one_table(
     *,
     commented: bool,
 ) -> Iterator[str]:
-    """Keys whose value is not what the schema takes anyway, then the tables inside."""
+    """Keys of a table, then the tables inside it."""
     meanings = attribute_docstrings(model) if commented else {}
     plain: list[tuple[str, Any]] = []
     inside: list[tuple[str, Any]] = []
@@ -185,8 +209,7 @@ def _one_table(
         if stated is not None:
             yield f"assumption = {json.dumps(stated, ensure_ascii=False)}"
         for key, value in plain:
-            if value != model.model_fields[key].default:
-                yield _with_comment(f"{key} = {_literal(value)}", meanings.get(key, ""))
+            yield _with_comment(f"{key} = {_literal(value)}", meanings.get(key, ""))
         stated = None  # a table speaks for those inside it
     for key, value in inside:
         (table,) = models_in(model.model_fields[key].annotation)

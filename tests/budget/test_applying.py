@@ -53,7 +53,7 @@ def test_a_published_sum_that_leaves_something_stays_the_sum() -> None:
 
 
 def test_a_given_added_inertia_is_kept() -> None:
-    text = TEXT.replace("value = [0, 0, 0], source", "value = [0.1, 9, 9], source", 1)
+    text = TEXT.replace("value = [0, 0, 0], derived", "value = [0.1, 9, 9], derived", 1)
     vehicle = vehicle_from_text(text, "given.toml")
     new = vehicle_from_text(applied_text(budget_study(vehicle), text), "new.toml").description
     np.testing.assert_allclose(new.added_inertia.inertia_kg_m2, np.diag([0.1, 9.0, 9.0]))

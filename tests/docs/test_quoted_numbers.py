@@ -18,7 +18,7 @@ from stommel.control import laws
 from stommel.design.budget import trimming
 from stommel.design.drives import study as drive_study
 from stommel.design.endurance import energy_study
-from stommel.design.endurance.sensitivity import SPAN_OF_ASSUMED, SPAN_OF_SOURCED
+from stommel.design.endurance.sensitivity import SPAN_OF_SOURCED, SPAN_WITHOUT_RANGE
 from stommel.machinery.drives.rudder import centre_of_pressure
 from stommel.machinery.engine import cycle, results
 from stommel.machinery.hull import buckling, end_caps, paper_formulas
@@ -30,7 +30,6 @@ from stommel.simulation.plant import motion, waves
 from stommel.simulation.scenario import scenario_file
 from stommel.simulation.scenario.shipped import mission_path
 from stommel.simulation.scenario.world_tables import Ctd, Integration
-from stommel.vehicle import builtin_text, vehicle_from_text
 
 ROOT = Path(__file__).parents[2]
 WORDS = {0.5: "half", 3: "three", 6: "six", 20: "20"}
@@ -96,8 +95,8 @@ CONSTANTS = [
     ("docs/guide/engine.md", f"{results.SAMPLES} samples over time"),
     (
         "docs/guide/endurance.md",
-        f"Numbers with a source are varied by {100 * SPAN_OF_SOURCED:g} %, "
-        f"assumptions by {100 * SPAN_OF_ASSUMED:g} %",
+        f"by {100 * SPAN_WITHOUT_RANGE:g} % where the file states none; numbers with a source are varied by "
+        f"{100 * SPAN_OF_SOURCED:g} %",
     ),
     ("docs/guide/missions.md", f"Up to {scenario_file.LONGEST_LATENCY - 1} control steps"),
     ("docs/guide/ocean.md", f"a Kuroshio-like jet of {ANALYTIC['east_china_sea']().transport_sv:g} Sv"),
@@ -124,19 +123,12 @@ def test_ranges_that_the_wanted_flights_need(page: str, zju: stommel.Vehicle) ->
     assert f"±{needs.moving_mass_choice_mm:g} mm and ±{needs.ballast_choice_ml:g} ml" in text_of(page)
 
 
-def test_endurance_at_both_voltages() -> None:
-    """At the supply of the motor and at seven cells of 3.7 V: as assumed, and with all assumptions favourable."""
-    text, page = builtin_text("zju"), text_of("docs/guide/endurance.md")
-    stated = 'voltage_v = { value = 24, source = "Fan et al. (2013), section 5.1.2: motor supply" }'
-    assert stated in text
-    low, high = (
-        energy_study(vehicle_from_text(text.replace(stated, stated.replace("24", volts)), "zju.toml"))
-        for volts in ("24", "25.9")
-    )
-    assert low.gap is not None
-    assert high.gap is not None
-    assert f"at the favourable end of its 30 % it is {low.gap.steps[-1].days:.1f} days" in page
-    assert f"with them it is {high.result.days:.1f} days, and {high.gap.steps[-1].days:.1f} at the favour" in page
+def test_endurance_with_its_interval(zju: stommel.Vehicle) -> None:
+    interval, page = energy_study(zju).interval, text_of("docs/guide/endurance.md")
+    assert f"is **{interval.likely_least:.1f} to {interval.likely_most:.1f} days**" in page
+    assert f"at one end it is {interval.least:.1f} or {interval.most:.1f} days" in page
+    likely = f"{interval.likely_least:.1f} to {interval.likely_most:.1f} days"
+    assert f"every uncertain number in its range {likely}" in text_of("docs/checked.md")
 
 
 def test_mission_on_the_battery_as_built(tmp_path: Path) -> None:

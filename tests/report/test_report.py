@@ -154,7 +154,11 @@ def test_the_verdict_reaches_the_papers_choices(page):
 
 
 def test_the_verdict_says_what_fails():
-    text = builtin_text("zju").replace("value = [-50, 550]", "value = [0, 500]").replace("value = 0.8,", "value = 0.9,")
+    text = (
+        builtin_text("zju")
+        .replace("value = [-50, 550]", "value = [0, 500]")
+        .replace("value = 0.8, source", "value = 0.9, source")
+    )
     page = Page(report_without_pictures(design_study(vehicle_from_text(text, "mine.toml"))))
     assert "0 to 500 mm: not enough" in page.text
     assert re.search(r"not met: [^.]*Speed", page.text)

@@ -91,7 +91,7 @@ def excesses(vehicle: Vehicle, flight: SteadyFlight) -> tuple[Excess, ...]:
     if actuators.moving_mass is not None:
         check(Reason.TRAVEL, "the moving mass at", flight.r_px * 1e3, *actuators.moving_mass.travel_mm, "mm")
     if actuators.buoyancy is not None:
-        check(Reason.VOLUME, "a ballast volume of", flight.V_b * 1e6, *actuators.buoyancy.volume_ml, "ml")
+        check(Reason.VOLUME, "a ballast volume of", flight.V_b * 1e6, *actuators.buoyancy.range_ml, "ml")
     if actuators.rudder is not None:
         travel = actuators.rudder.travel_deg
         check(Reason.RUDDER, "a rudder angle of", degrees(flight.delta_r), -travel, travel, "deg")
@@ -109,7 +109,7 @@ def clamped(vehicle: Vehicle, settings: tuple[float, ...]) -> tuple[float, ...]:
     rudder, roll = (drive.travel_deg if drive else inf for drive in (a.rudder, a.roll))
     limits = (
         a.moving_mass.travel_mm if a.moving_mass else (-inf, inf),
-        a.buoyancy.volume_ml if a.buoyancy else (-inf, inf),
+        a.buoyancy.range_ml if a.buoyancy else (-inf, inf),
         (-rudder, rudder),
         (-roll, roll),
     )

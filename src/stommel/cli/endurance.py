@@ -6,12 +6,13 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
-from stommel.cli.output import number, show_table, show_values
+from stommel.cli.output import number, show_entries, show_notes, show_table, show_values
 from stommel.cli.paths import PlotOption
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
-    from stommel.design.endurance import BestFlight, EnergyStudy, Gap, Sensitivity
+    from stommel.design.endurance import BestFlight, Endurance, EnergyStudy, Gap, Interval, Sensitivity
+    from stommel.design.endurance.sea import Sea
 
 MOST_SHOWN = 12
 
@@ -27,6 +28,14 @@ def endurance(
     ] = None,
     temperature: Annotated[
         float | None, typer.Option("--temperature", help="Temperature of the water [deg C]; water.temperature_c.")
+    ] = None,
+    ocean: Annotated[
+        str | None,
+        typer.Option("--ocean", help="Analytic ocean, ocean file or profile, for stratification and temperature."),
+    ] = None,
+    at: Annotated[str | None, typer.Option("--at", metavar="LAT,LON", help="Place in the ocean [deg].")] = None,
+    time: Annotated[
+        str | None, typer.Option("--time", help="ISO 8601 time, UTC; the ocean's first if left out.")
     ] = None,
     physics: PhysicsOption = PhysicsChoice.paper,
     plot: PlotOption = None,
@@ -44,6 +53,7 @@ def endurance(
         pitch_deg=pitch,
         depth_m=depth,
         temperature_c=temperature,
+        sea=_sea(ocean, at, time),
         physics=physics_of(physics),
     )
     written = []
@@ -53,6 +63,29 @@ def endurance(
 
         written.append(save_figure_as(endurance_figure(study), plot))
     finish(study, written, as_json, _show)
+
+
+def _sea(ocean: str | None, at: str | None, time: str | None) -> "Sea | None":
+    """The ocean that the options choose."""
+    from stommel.cli.ocean.choice import OceanOptionError, open_ocean, place
+
+    if ocean is None:
+        if at is not None or time is not None:
+            raise OceanOptionError(f"{'--at' if at is not None else '--time'}: needs --ocean")
+        return None
+    where = place(at)
+    if where is None:
+        raise OceanOptionError("--ocean: needs a place, --at LATITUDE,LONGITUDE like 28.2,126.6")
+    from stommel.design.endurance.sea import Sea
+    from stommel.ocean.times import seconds
+
+    found = open_ocean(
+        [ocean],
+        {"names": {}, "parameters": {}, "bounds": None, "between": None, "at_rest": False},
+        {"outside": "error"},
+    )
+    when = float(found.data.nodes.times[0]) if time is None else seconds(time)
+    return Sea(found, when, *where)
 
 
 def _show(study: "EnergyStudy") -> None:
@@ -72,19 +105,42 @@ def _show_answer(study: "EnergyStudy") -> None:
     if study.target_days is not None:
         asked = f"; {counted(study.target_days, 'day')} asked: {'met' if study.gap is None else 'NOT MET'}"
     minutes = float(cycle.duration_s) / 60.0
+    sea = {"sea": _sea_in_words(result)} if result.sea is not None else {}
     show_values(
         f"{study.vehicle.name}: dives to {wanted.depth_m:g} m at {wanted.speed_m_s:g} m/s, "
         f"pitch {wanted.pitch_deg:g} deg",
-        {
+        sea
+        | {
             "endurance": f"{counted(number(result.days, 1), 'day')}{asked}",
+            "between": _interval_in_words(study.interval),
             "range": f"{result.range_m / 1e3:.0f} km in still water",
             "dives": f"{result.dives:.0f} of {minutes:.1f} minutes, {float(cycle.surface_s):.0f} s at the surface",
             "mean power": f"{result.mean_power_w:.2f} W",
             "battery": f"{stored.usable_j / 3.6e6:.3f} of {stored.rated_j / 3.6e6:.3f} kWh usable, at "
             f"{result.model.temperature_c:g} deg C",
-            "ballast": f"{(result.climb.V_b - result.dive.V_b) * 1e6:.0f} ml from dive to climb, "
+            "ballast": f"{result.ballast_swing_m3 * 1e6:.0f} ml from dive to climb, "
             f"{_pressure_mpa(study):.2f} MPa at depth",
         },
+    )
+
+
+def _sea_in_words(result: "Endurance") -> str:
+    """Where it dives, and whether the water lets it fly as slowly as wanted."""
+    sea = result.sea
+    assert sea is not None
+    place = f"{sea.ocean.name} at {sea.latitude_deg:g}, {sea.longitude_deg:g}"
+    if result.flown_speed_m_s > 1.01 * result.wanted.speed_m_s:
+        return f"{place}; its stratification makes the dives {result.flown_speed_m_s:.3g} m/s on average"
+    return place
+
+
+def _interval_in_words(interval: "Interval") -> str:
+    """How sure the endurance is."""
+    least = "none" if interval.least is None else number(interval.least, 1)
+    most = "none" if interval.most is None else number(interval.most, 1)
+    return (
+        f"{number(interval.likely_least, 1)} and {number(interval.likely_most, 1)} days with every uncertain number in "
+        f"its range; {least} and {most} with all of them at one end"
     )
 
 
@@ -135,12 +191,12 @@ def _show_gap(gap: "Gap") -> None:
         for one in gap.alone
         if one.needed is not None
     ]
-    end = "Together they reach it." if gap.closed else "All of them together do not reach it."
+    end = f"Only the {len(gap.steps)} together reach it." if gap.closed else "All of them together do not reach it."
     show_table(
         f"{counted(gap.target_days, 'day allows', 'days allow')} {gap.allowed_power_w:.2f} W: "
         f"{gap.missing_power_w:.2f} W too much\n"
-        "Assumptions at their favourable ends, one upon the other",
-        ["assumption", "is", "taken as", "days"],
+        "Uncertain numbers at the favourable ends of their ranges, one upon the other",
+        ["number", "is", "taken as", "days"],
         rows,
         [end, *alone],
     )
@@ -158,7 +214,7 @@ def _show_sensitivity(study: "EnergyStudy") -> None:
         ]
 
     show_table(
-        "Sensitivity: assumptions by 30 %, numbers with a source by 10 %",
+        "Sensitivity: each number over its range, 30 % where none is stated; with a source 10 %",
         ["number", "value", "elasticity", "days"],
         [row(one) for one in study.sensitivities[:MOST_SHOWN]],
         [f"{len(study.sensitivities) - MOST_SHOWN} more with --json."] if len(study.sensitivities) > MOST_SHOWN else [],
@@ -166,12 +222,18 @@ def _show_sensitivity(study: "EnergyStudy") -> None:
 
 
 def _show_assumptions(study: "EnergyStudy") -> None:
-    from rich.markup import escape
-
+    """Key, value and span on one line; what kind of number it is, and why, below."""
     from stommel.design.endurance.study import MODEL_ASSUMPTIONS
 
-    assumed = [one.assumption for one in study.sensitivities if one.assumption.origin.kind != "source"]
-    rows = [
-        [a.key, f"{a.value:.4g}", escape(a.origin.text) or "not stated"] for a in sorted(assumed, key=lambda a: a.key)
-    ]
-    show_table("Assumptions", ["key", "value", "why"], rows, MODEL_ASSUMPTIONS)
+    assumed = [one for one in study.sensitivities if one.assumption.origin.kind not in ("source", "chosen")]
+    entries = []
+    for one in sorted(assumed, key=lambda one: one.assumption.key):
+        a = one.assumption
+        unit = "" if a.unit == "1" else f" {a.unit}"
+        span = f"{one.low:.4g} to {one.high:.4g}"
+        stated = "" if a.origin.range is not None else " (no range is stated)"
+        entries.append(
+            (f"{a.key} = {a.value:.4g}{unit}; {span}{stated}", f"{a.origin.kind}: {a.origin.text}".removesuffix(": "))
+        )
+    show_entries("What has no source, and between what it is taken to lie", entries)
+    show_notes(MODEL_ASSUMPTIONS, "assumption of the balance")

@@ -45,7 +45,7 @@ def envelope(
     needs = ranges_needed(glider, wanted, physics=switches) if wanted else None
     engine = glider.description.actuators.buoyancy
     reach = flight_envelope(glider, physics=switches) if engine is not None else None
-    full_ml = engine.volume_ml[0] if engine is not None else 0.0
+    full_ml = engine.range_ml[0] if engine is not None else 0.0
     best = best_conditions(glider, ballast_ml=full_ml, physics=switches) if full_ml < 0.0 else None
     if reach is None and needs is None:
         raise StommelError(

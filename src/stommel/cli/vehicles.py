@@ -46,7 +46,14 @@ def show(
         typer.echo(vehicle_text(vehicle), nl=False)
         return
     numbers = [
-        {"key": key, "value": value, "unit": unit_of(key), "kind": origin.kind, "text": origin.text}
+        {
+            "key": key,
+            "value": value,
+            "unit": unit_of(key),
+            "kind": origin.kind,
+            "text": origin.text,
+            "range": origin.range,
+        }
         for key, value, origin in stated_numbers(glider)
     ]
     answer = {"name": glider.name, "numbers": numbers, "description": glider.description.model_dump(mode="json")}
@@ -59,10 +66,16 @@ def _show_numbers(answer: dict[str, Any]) -> None:
     for row in answer["numbers"]:
         value = row["value"]
         shown = ", ".join(f"{v}" for v in value) if isinstance(value, list) else f"{value}"
-        mark = "assumption: " if row["kind"] == "assumption" else ""
-        entries.append((f"{row['key']} = {shown} {row['unit'] or ''}".rstrip(), mark + (row["text"] or "not stated")))
+        entries.append((f"{row['key']} = {shown} {row['unit'] or ''}".rstrip(), _origin_in_words(row)))
     show_entries(f"{answer['name']}: {len(entries)} numbers", entries)
     show_notes(answer["description"]["notes"], "note")
+
+
+def _origin_in_words(row: dict[str, Any]) -> str:
+    """Where a number comes from; what is not printed in a source says so, with its range."""
+    mark = f"{row['kind']}: " if row["kind"] in ("derived", "assumption") else ""
+    between = "; between {:g} and {:g}".format(*row["range"]) if row["range"] else ""
+    return mark + (row["text"] or "not stated") + between
 
 
 @vehicle_app.command("check")
@@ -84,6 +97,7 @@ def check(vehicle: VehicleArgument, as_json: JsonOption = False) -> None:
         "mass_kg": d.mass_kg,
         "numbers": len(kinds),
         "sourced": kinds.count("source"),
+        "derived": kinds.count("derived"),
         "assumptions": kinds.count("assumption"),
         "not_stated": kinds.count("not stated"),
         "unknown_lateral": missing,
@@ -99,8 +113,8 @@ def _show_check(summary: dict[str, Any]) -> None:
         f"{summary['name']}: {counted(len(errors), 'error')}, {counted(len(warnings), 'warning')}",
         {
             "mass": number(summary["mass_kg"], 2, "kg"),
-            "numbers": f"{summary['numbers']}: {summary['sourced']} with a source, "
-            f"{counted(summary['assumptions'], 'assumption')}, {summary['not_stated']} without either",
+            "numbers": f"{summary['numbers']}: {summary['sourced']} with a source, {summary['derived']} derived, "
+            f"{counted(summary['assumptions'], 'assumption')}, {summary['not_stated']} without any origin",
             "planes": f"vertical only; missing {', '.join(missing)}" if missing else "vertical and lateral",
         },
     )

@@ -34,7 +34,9 @@ class DivePlan(NamedTuple):
     """What one dive is asked to do; SI units and radians."""
 
     depth: float
-    """Depth at which the vehicle turns [m]."""
+    """Greatest depth of a dive, and the depth of a drift [m]."""
+    turns_early: float
+    """Way above it at which the vehicle turns, because it goes on sinking meanwhile [m]."""
     theta: float
     """Magnitude of the pitch [rad]."""
     V_b_dive: float
@@ -194,9 +196,9 @@ def _holds(condition: int, state: DiveState, plan: DivePlan, t: float, now: Situ
     if condition == BOTTOM_NEAR:
         return now.altitude <= plan.least_altitude
     if condition == AT_DEPTH_TO_DRIFT:
-        return now.depth >= plan.depth and plan.drift_time > 0.0
+        return now.depth >= plan.depth - plan.turns_early and plan.drift_time > 0.0
     if condition == AT_DEPTH:
-        return now.depth >= plan.depth
+        return now.depth >= plan.depth - plan.turns_early
     if condition == DRIFTED:
         return t - state.since >= plan.drift_time
     if condition == BUOYANT:

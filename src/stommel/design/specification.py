@@ -40,7 +40,7 @@ def specification_check(vehicle: Vehicle, physics: Physics) -> tuple[Specificati
 
     hull, engine, rudder = d.hull, d.actuators.buoyancy, d.actuators.rudder
     overall = hull.length_m + hull.nose_length_m + hull.tail_length_m if hull else None
-    volume = engine.volume_ml[1] - engine.volume_ml[0] if engine else None
+    volume = engine.range_ml[1] - engine.range_ml[0] if engine else None
     at_most("Body length", "m", spec.body_length_m, hull.length_m if hull else None, "hull.length_m")
     at_most("Overall length", "m", spec.overall_length_m, overall, "hull with nose and tail")
     at_most("Diameter", "mm", spec.diameter_mm, hull.outer_diameter_mm if hull else None, "hull.outer_diameter_mm")

@@ -205,7 +205,7 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
     envelope = ask("flight envelope", lambda: tuple(flight_envelope(vehicle, physics=physics)))
     ranges = ask("actuator ranges", lambda: ranges_needed(vehicle, specified_flights(vehicle), physics=physics))
     engine = vehicle.description.actuators.buoyancy
-    ballast_ml = engine.volume_ml[0] if engine else flight.V_b * 1e6
+    ballast_ml = engine.range_ml[0] if engine else flight.V_b * 1e6
     best = ask("best conditions", lambda: best_conditions(vehicle, ballast_ml=ballast_ml, physics=physics))
     loci = _loci(interview, physics, speed, pitch)
     turns = ask("turns", lambda: _turns(vehicle, physics, speed, pitch)) or ()

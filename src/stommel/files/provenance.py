@@ -1,20 +1,28 @@
-"""Where each number of a vehicle file comes from.
+"""Where each number of a file comes from.
 
-A number may be written plainly, or as `{ value = 45, source = "Fan et al. (2013), section 3.1" }`, or as
-`{ value = 0.005, assumption = "no figure published; typical of lead screws" }`. A `source` or `assumption` that stands
-as a key of a table speaks for every number of that table which says nothing of its own, and one at the head of the file
-for the rest.
+A number may be written plainly, or with its origin, of which there are three kinds:
+
+- `{ value = 45, source = "Fan et al. (2013), section 3.1" }`: it is printed there;
+- `{ value = 8.617, derived = "1.1 ml/r at 470 r/min, Fan et al. (2013), 4.3.2" }`: worked out, from what and how;
+- `{ value = 0.12, assumption = "steel on bronze", range = [0.08, 0.2] }`: chosen, for want of a source.
+
+What is inferred is no source. `range` says between which values the number may well lie; a number with a source needs
+none. An origin that stands as a key of a table speaks for every number of that table which says nothing of its own, and
+one at the head of the file for the rest.
 """
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any, Literal
 
 from stommel.errors import FileError, Problem
 from stommel.files.sentences import shown
 
-Kind = Literal["source", "assumption", "not stated"]
-KINDS: tuple[Kind, ...] = ("source", "assumption")
+Kind = Literal["source", "derived", "assumption", "chosen", "not stated"]
+"""What a file may say, and what a request chose, or nobody said."""
+KINDS: tuple[Kind, ...] = ("source", "derived", "assumption")
+RANGE = "range"
 
 
 @dataclass(frozen=True)
@@ -23,13 +31,15 @@ class Provenance:
 
     kind: Kind
     text: str
+    range: tuple[float, float] | None = None
+    """Between which values it may well lie, in the number's own unit; None if the file does not say."""
 
 
 NOT_STATED = Provenance("not stated", "")
 
 
 class _ProvenanceError(ValueError):
-    """A provenance that is not text; holds the key."""
+    """A provenance that is none; holds the key."""
 
     def __init__(self, key: str, message: str) -> None:
         self.key = key
@@ -42,7 +52,7 @@ def separate(document: Mapping[str, Any], origin: str) -> tuple[dict[str, Any], 
     Raises
     ------
     FileError
-        A source or assumption is not text, or a number has both.
+        An origin is not text, a number has two of them, or a range is none.
     """
     found: dict[str, Provenance] = {}
     try:
@@ -57,7 +67,7 @@ def _own(table: Mapping[str, Any], key: str) -> Provenance | None:
     if not stated:
         return None
     if len(stated) > 1:
-        raise _ProvenanceError(key, f"{key or 'the file'} has both a source and an assumption; keep one")
+        raise _ProvenanceError(key, f"{key or 'the file'} has both {' and '.join(stated)}; keep one")
     text = table[stated[0]]
     if not isinstance(text, str) or not text.strip():
         raise _ProvenanceError(key, f"{key or 'the file'}: {stated[0]} = {shown(text)}: must be text")
@@ -78,8 +88,8 @@ def _separate_table(
 
 def _separate_value(value: Any, key: str, inherited: Provenance, found: dict[str, Provenance]) -> Any:
     if isinstance(value, Mapping):
-        if "value" in value and set(value) <= {"value", *KINDS}:
-            found[key] = _own(value, key) or inherited
+        if "value" in value and set(value) <= {"value", RANGE, *KINDS}:
+            found[key] = _of_one_number(value, key, inherited)
             return value["value"]
         return _separate_table(value, key + ".", inherited, found)
     if isinstance(value, list) and any(isinstance(item, Mapping) for item in value):
@@ -87,6 +97,43 @@ def _separate_value(value: Any, key: str, inherited: Provenance, found: dict[str
     if inherited is not NOT_STATED:
         found[key] = inherited
     return value
+
+
+def _of_one_number(table: Mapping[str, Any], key: str, inherited: Provenance) -> Provenance:
+    own = _own(table, key) or inherited
+    if RANGE not in table:
+        return own
+    if own.kind not in ("derived", "assumption"):
+        raise _ProvenanceError(key, f"{key}: range needs derived or assumption beside it, with the reason")
+    ends = table[RANGE]
+    if not (isinstance(ends, list) and len(ends) == 2 and all(map(_is_number, ends)) and ends[0] <= ends[1]):
+        raise _ProvenanceError(key, f"{key}: range = {shown(ends)}: must be two numbers, the lower first")
+    return Provenance(own.kind, own.text, (float(ends[0]), float(ends[1])))
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
+
+
+def check_ranges(document: Mapping[str, Any], found: Mapping[str, Provenance], origin: str) -> None:
+    """Refuse a plain document, read and found sound, in which a number does not lie in its own range.
+
+    Raises
+    ------
+    FileError
+        One problem for each such number.
+    """
+    problems = [
+        Problem(
+            origin, key, f"{key} = {shown(value)}: must lie in its own range, {low:g} to {high:g}; change that with it"
+        )
+        for key, value in numbers(document)
+        if (known := found.get(key)) and known.range
+        for low, high in [known.range]
+        if not (_is_number(value) and low <= value <= high)
+    ]
+    if problems:
+        raise FileError(problems)
 
 
 def numbers(document: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:

@@ -23,13 +23,16 @@ class Dives(Table):
     """How the vehicle dives."""
 
     depth_m: Positive
-    """Depth at which it turns."""
+    """Greatest depth; it turns earlier by the way that it goes on sinking."""
     pitch_deg: PitchAngle
     """Magnitude of the pitch, down and up."""
     speed_m_s: Positive | None = None
-    """Speed along the path; the ballast volume follows from the trim."""
+    """Mean speed along the path through the water of the dive; the ballast volume follows from trim and water."""
+    least_speed_m_s: Positive | None = None
+    """Speed along the path where the water drives least. Beside `speed_m_s`, which it defaults to half of, a bound on
+    how slow the dive may become; instead of it, what the ballast volume follows from."""
     ballast_ml: Positive | None = None
-    """Magnitude of the ballast volume instead of the speed."""
+    """Ballast volume beyond neutral where the water drives least, instead of a speed."""
     per_surfacing: Annotated[int, Field(strict=True, ge=1)] = 1
     """Dives from one stay at the surface to the next."""
     turn_depth_m: NotNegative = 10.0
@@ -41,8 +44,14 @@ class Dives(Table):
 
     @model_validator(mode="after")
     def _one_drive(self) -> Self:
-        if (self.speed_m_s is None) == (self.ballast_ml is None):
-            raise ValueError("dives: give either speed_m_s or ballast_ml")
+        by_speed = self.speed_m_s is not None or self.least_speed_m_s is not None
+        if by_speed == (self.ballast_ml is not None):
+            raise ValueError("dives: give speed_m_s or least_speed_m_s, or else ballast_ml")
+        if self.speed_m_s is not None and self.least_speed_m_s is not None and self.least_speed_m_s > self.speed_m_s:
+            raise ValueError(
+                f"dives.least_speed_m_s = {self.least_speed_m_s:g}: must be at most "
+                f"dives.speed_m_s = {self.speed_m_s:g}"
+            )
         return self
 
 

@@ -1,11 +1,23 @@
 """Ballast of a mission: how the vehicle is trimmed before it, and how much oil its dives need."""
 
-from math import radians
-from typing import Any
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.analysis.reversal import OVERRUN, Inertia
+from stommel.analysis.stratified import (
+    REFERENCE_SPEED,
+    DiveBallast,
+    DiveWater,
+    WantedDive,
+    ballast_for,
+    dive_water,
+    drives_at,
+    neutral_volumes,
+    trimmed_midway,
+    yielded,
+)
 from stommel.analysis.trim import trim
 from stommel.compilation import compiled
 from stommel.dynamics.equations import static_moment
@@ -13,8 +25,8 @@ from stommel.dynamics.inertia import moving_mass_position
 from stommel.dynamics.packing import pack, reference_water
 from stommel.errors import StommelError
 from stommel.geometry.vectors import Vector
-from stommel.ocean.kernel.column import fill_column
-from stommel.ocean.kernel.grid import RHO, TEMPERATURE, P, new_cell, new_column
+from stommel.machinery.hull.floating import emerged_moment, hull_form
+from stommel.machinery.power.engine_work import pump_by_engine
 from stommel.planning.deployment import Deployment
 from stommel.seawater.water import Water
 from stommel.vehicle import Vehicle
@@ -22,8 +34,15 @@ from stommel.vehicle import Vehicle
 Array = NDArray[np.float64]
 
 
-_DEPTHS = 41
-"""At which the water of a dive is looked at."""
+def water_of(deployment: Deployment) -> DiveWater:
+    """Water of the dives, where and when the mission begins."""
+    return dive_water(
+        deployment.ocean,
+        deployment.time,
+        deployment.latitude_deg,
+        deployment.longitude_deg,
+        deployment.plan.dives.depth_m,
+    )
 
 
 def ballasted(deployment: Deployment) -> Vehicle:
@@ -34,38 +53,15 @@ def ballasted(deployment: Deployment) -> Vehicle:
     vehicle = deployment.vehicle
     depth = deployment.neutral_depth_m
     if depth is None:
-        volumes = neutral_volumes(deployment)
-        middle = 0.5 * float(volumes.min() + volumes.max())
-        neutral_volume = vehicle.description.mass_kg / vehicle.neutral_density_kg_m3 + middle
-        return vehicle.trimmed_for(vehicle.description.mass_kg / neutral_volume)
+        return trimmed_midway(vehicle, deployment.physics, water_of(deployment))
     here = deployment.ocean.at(deployment.time, deployment.latitude_deg, deployment.longitude_deg, depth)
     record = pack(vehicle, deployment.physics)
-    yielded = _yielded(record, here.pressure, here.temperature)
-    return vehicle.trimmed_for(float(here.density * yielded))
+    return vehicle.trimmed_for(float(here.density * yielded(record, here.pressure, here.temperature)))
 
 
-def _yielded(record: np.record, pressure: Any, temperature: Any) -> Any:
-    """Volume of the hull at a gauge pressure [Pa] and temperature [deg C], as a part of that at the surface."""
-    return 1.0 - record.kappa * pressure + record.alpha_T * (temperature - record.T_0)
-
-
-def neutral_volumes(deployment: Deployment) -> Array:
+def neutral_ballast(deployment: Deployment) -> Array:
     """Ballast volumes at which the vehicle is neutral from the surface to the dive depth, at the start [m3]."""
-    plan, record = deployment.plan, pack(deployment.vehicle, deployment.physics)
-    water = _water_below(deployment, plan.dives.depth_m)
-    hull = _yielded(record, water[:, P], water[:, TEMPERATURE])
-    volumes: Array = record.m / water[:, RHO] - record.V_0 * hull
-    return volumes
-
-
-def _water_below(deployment: Deployment, depth: float) -> Array:
-    """Rows of an ocean column from the surface to `depth` [m] at the start."""
-    ocean = deployment.ocean
-    latitude, longitude = deployment.latitude_deg, deployment.longitude_deg
-    ocean.at(deployment.time, latitude, longitude, depth)  # says so if there is no such water
-    column = new_column(ocean.grid(), depth, depth / (_DEPTHS - 1))
-    fill_column(ocean.grid(), ocean.table, deployment.time, radians(latitude), radians(longitude), new_cell(), column)
-    return column.values
+    return neutral_volumes(deployment.vehicle, deployment.physics, water_of(deployment))
 
 
 def drives(deployment: Deployment) -> tuple[float, float]:
@@ -73,21 +69,20 @@ def drives(deployment: Deployment) -> tuple[float, float]:
     dives = deployment.plan.dives
     if dives.ballast_ml is not None:
         return dives.ballast_ml / 1e6, dives.ballast_ml / 1e6
-    assert dives.speed_m_s is not None
-    down, up = (
-        trim(deployment.vehicle, speed_m_s=dives.speed_m_s, pitch_deg=pitch, physics=deployment.physics).V_b
-        for pitch in (-dives.pitch_deg, dives.pitch_deg)
-    )
-    return abs(down), abs(up)
+    speed = dives.least_speed_m_s if dives.speed_m_s is None else dives.speed_m_s
+    assert speed is not None
+    return drives_at(deployment.vehicle, deployment.physics, dives.pitch_deg, speed)
 
 
-def ballast_volumes(deployment: Deployment, neutral: Array) -> tuple[float, float]:
-    """Ballast volumes of descent and ascent [m3], so that the vehicle keeps its drive through all of the water.
+def wanted_dive(deployment: Deployment) -> WantedDive:
+    """What the plan asks of its dives."""
+    dives = deployment.plan.dives
+    drive = None if dives.ballast_ml is None else dives.ballast_ml / 1e6
+    return WantedDive(dives.pitch_deg, dives.speed_m_s, dives.least_speed_m_s, drive)
 
-    `neutral` are the `neutral_volumes` of the dive.
 
-    The wanted drive (from the trim at the wanted speed, or given) is added to the volume of neutral buoyancy where the
-    water is lightest on the way down, and where it is heaviest for the hull on the way up.
+def ballast_volumes(deployment: Deployment, neutral: Array) -> DiveBallast:
+    """Ballast volumes of descent and ascent, by `neutral_ballast` of the dive.
 
     Raises
     ------
@@ -95,9 +90,10 @@ def ballast_volumes(deployment: Deployment, neutral: Array) -> tuple[float, floa
         The density of the water varies more than the buoyancy engine can follow, or the vehicle is trimmed so far from
         it that it would dive with oil outside: the flight software takes the sign of the volume for the way.
     """
-    dives, (drive_down, drive_up) = deployment.plan.dives, drives(deployment)
+    dives = deployment.plan.dives
     low, high = deployment.ballast_range
-    down, up = float(neutral.min()) - drive_down, float(neutral.max()) + drive_up
+    found = ballast_for(deployment.vehicle, deployment.physics, neutral, wanted_dive(deployment))
+    down, up = found.down, found.up
     if down < low - 1e-9 or up > high + 1e-9:
         raise StommelError(
             f"{deployment.origin}: dives: the water between 0 and {dives.depth_m:g} m is neutral from "
@@ -111,20 +107,68 @@ def ballast_volumes(deployment: Deployment, neutral: Array) -> tuple[float, floa
             f"and climb with {up * 1e6:.0f} ml; needed are less and more than 0 ml: choose a depth between 0 and "
             f"{dives.depth_m:g} m, or leave it out"
         )
-    return down, up
+    return found
 
 
-def mass_position_at_rest(deployment: Deployment, V_b: float, theta: float) -> float:
+def pump_flow(deployment: Deployment) -> float:
+    """Flow of the pump at the depth of the dives, by its machinery or as the file states it [m3/s]."""
+    d = deployment.vehicle.description
+    if d.engine is None:
+        stated = d.actuators.buoyancy.flow_ml_s if d.actuators.buoyancy else None
+        return inf if stated is None else stated / 1e6
+    P = float(water_of(deployment).pressure[-1])
+    flow = float(pump_by_engine(d.engine, P).inflating_m3_s[-1])
+    return flow if flow > 0.0 else inf  # one that stalls is refused elsewhere
+
+
+ALLOWED_M, ALLOWED_SHARE, MOST_ALLOWED = 1.0, 0.01, 0.05
+"""Allowed for where a dive turns: metres, and a share of its depth, up to a share of it; the pitch follows later than the
+oil, and sensors err."""
+MOST_OF_DEPTH = 0.5
+"""No dive turns above this part of its depth."""
+
+
+def overshoot(deployment: Deployment, ballast: DiveBallast, neutral: Array, step: float) -> float:
+    """Way by which a dive goes on sinking after the decision to turn [m] (eq-sim15).
+
+    While the pump brings it to neutral, while its inertia is used up, and for two decisions a `step` [s] apart.
+    """
+    dives, vehicle, physics = deployment.plan.dives, deployment.vehicle, deployment.physics
+    speed = dives.speed_m_s or dives.least_speed_m_s or REFERENCE_SPEED
+    dive = trim(vehicle, speed_m_s=speed, pitch_deg=-dives.pitch_deg, physics=physics)
+    before, after = float(neutral[-1]) - ballast.down, ballast.up - float(neutral[-1])
+    w = dive.sinking_speed * float(np.sqrt(before / abs(dive.V_b)))
+    d = vehicle.description
+    inertia = Inertia(d.mass_kg + d.added_inertia.surge_kg, vehicle.neutral_density_kg_m3 * d.water.gravity_m_s2)
+    sinking = 2.0 / 3.0 * w * before / pump_flow(deployment) + OVERRUN * w * float(inertia.time(w, after))
+    allowed = min(ALLOWED_M + ALLOWED_SHARE * dives.depth_m, MOST_ALLOWED * dives.depth_m)
+    return float(min(sinking + 2.0 * step * w + allowed, MOST_OF_DEPTH * dives.depth_m))
+
+
+def afloat_volume(deployment: Deployment) -> float:
+    """Ballast volume at the surface: the plan's, or the greatest of the buoyancy engine [m3]."""
+    stated = deployment.plan.surface.ballast_ml
+    return deployment.ballast_range[1] if stated is None else stated / 1e6
+
+
+def surplus_afloat(deployment: Deployment) -> float:
+    """Volume that stands out of the water at the surface, by the water at the start [m3]."""
+    return max(0.0, afloat_volume(deployment) - float(neutral_ballast(deployment)[0]))
+
+
+def mass_position_at_rest(deployment: Deployment, V_b: float, theta: float, surplus: float = 0.0) -> float:
     """Moving-mass position at which the vehicle rests at pitch `theta` [rad] with ballast volume `V_b` [m3]; [m].
 
-    Gravity and the bladder's buoyancy balance about the centre of buoyancy; the limit switches bound the answer.
+    Gravity and the bladder's buoyancy balance about the centre of buoyancy, at the surface also what the end carries
+    that stands out with a volume `surplus` [m3]; the limit switches bound the answer.
     """
     record, water = pack(deployment.vehicle, deployment.physics), reference_water(deployment.vehicle)
     # the moment is linear in the position: two looks tell it all
     a, b = (_moment_at_rest(record, water, r_px, V_b) for r_px in (0.0, 1.0))
     tangent = np.tan(theta)
+    lifted = water.rho * emerged_moment(hull_form(deployment.vehicle.description), theta, surplus)
     # at rest tan(theta) = -s_1 / s_3
-    r_px = -(a[0] + tangent * a[2]) / ((b[0] - a[0]) + tangent * (b[2] - a[2]))
+    r_px = -(a[0] + lifted + tangent * a[2]) / ((b[0] - a[0]) + tangent * (b[2] - a[2]))
     return float(np.clip(r_px, *deployment.mass_range))
 
 

@@ -11,7 +11,14 @@ from stommel.control.flight_table import FlightTable, look_up
 from stommel.control.laws import DriftLaw, HeadingLaw, PitchLaw
 from stommel.control.orders import GUIDANCE_PERIOD, Alarms, Laws, Orders
 from stommel.mission.plan import Plan
-from stommel.planning.ballasting import ballast_volumes, mass_position_at_rest, neutral_volumes
+from stommel.planning.ballasting import (
+    afloat_volume,
+    ballast_volumes,
+    mass_position_at_rest,
+    neutral_ballast,
+    overshoot,
+    surplus_afloat,
+)
 from stommel.planning.deployment import Deployment
 
 Array = NDArray[np.float64]
@@ -34,7 +41,7 @@ def orders_of(deployment: Deployment, step: float, energy: float) -> Orders:
     StommelError
         The vehicle cannot fly the dives that the plan asks for.
     """
-    plan, dives = deployment.plan, dive_plan(deployment)
+    plan, dives = deployment.plan, dive_plan(deployment, step)
     table = flight_table(deployment.vehicle, physics=deployment.physics)
     limit = plan.abort.internal_pressure_kpa
     return Orders(
@@ -55,8 +62,8 @@ def orders_of(deployment: Deployment, step: float, energy: float) -> Orders:
     )
 
 
-def dive_plan(deployment: Deployment) -> DivePlan:
-    """What one dive is asked to do.
+def dive_plan(deployment: Deployment, step: float) -> DivePlan:
+    """What one dive is asked to do, by decisions a `step` [s] apart.
 
     Raises
     ------
@@ -65,20 +72,25 @@ def dive_plan(deployment: Deployment) -> DivePlan:
     """
     plan = deployment.plan
     dives, surface = plan.dives, plan.surface
-    neutral = neutral_volumes(deployment)
-    down, up = ballast_volumes(deployment, neutral)
-    afloat = deployment.ballast_range[1] if surface.ballast_ml is None else surface.ballast_ml / 1e6
+    neutral = neutral_ballast(deployment)
+    ballast = ballast_volumes(deployment, neutral)
+    afloat = afloat_volume(deployment)
     drifting = float(neutral[-1])
     knows_antenna = deployment.vehicle.description.antenna is not None
     return DivePlan(
         depth=dives.depth_m,
+        turns_early=overshoot(deployment, ballast, neutral, step),
         theta=radians(dives.pitch_deg),
-        V_b_dive=down,
-        V_b_climb=up,
+        V_b_dive=ballast.down,
+        V_b_climb=ballast.up,
         V_b_surface=afloat,
         V_b_drift=drifting,
         r_px_drift=mass_position_at_rest(deployment, drifting, 0.0),
-        r_px_surface=(mass_position_at_rest(deployment, afloat, radians(surface.pitch_deg)) if knows_antenna else nan),
+        r_px_surface=(
+            mass_position_at_rest(deployment, afloat, radians(surface.pitch_deg), surplus_afloat(deployment))
+            if knows_antenna
+            else nan
+        ),
         surface_time=surface.session_s,
         longest_surface_time=surface.longest_s,
         drift_time=dives.drift_hours * 3600.0,

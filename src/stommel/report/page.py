@@ -186,13 +186,18 @@ def _matrix(plane: str, model: LinearModel) -> MatrixView:
 
 def _origins(study: DesignStudy) -> list[tuple[str, str, list[tuple[str, str, str, str]]]]:
     """Numbers of the vehicle file by kind of origin, assumptions first: (kind, heading, rows)."""
-    kinds = (("assumption", "Assumed"), ("not stated", "Without any origin"), ("source", "From a source"))
+    kinds = (
+        ("assumption", "Assumed"),
+        ("not stated", "Without any origin"),
+        ("derived", "Derived"),
+        ("source", "From a source"),
+    )
     return [
         (
             kind,
             heading,
             [
-                (key, wording.listed(value), wording.unit(key), origin.text)
+                (key, wording.listed(value), wording.unit(key), wording.origin(origin))
                 for key, value, origin in study.numbers
                 if origin.kind == kind and key != "format"  # no number of the vehicle
             ],

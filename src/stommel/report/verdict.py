@@ -93,7 +93,7 @@ def _ballast(study: DesignStudy) -> Answer:
     engine = study.vehicle.description.actuators.buoyancy
     if engine is None:
         return Answer(question, f"±{short(needed.ballast_choice_ml)} ml", detail, "plain")
-    low, high = engine.volume_ml
+    low, high = engine.range_ml
     enough = min(high, -low) >= needed.ballast_ml - 1e-9
     detail += f" The file gives {short(low)} to {short(high)} ml: {'enough' if enough else 'not enough'}."
     return Answer(question, f"±{short(needed.ballast_choice_ml)} ml", detail, "good" if enough else "bad")

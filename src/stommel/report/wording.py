@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from math import isinf
 
 from stommel.design.study import DesignStudy
+from stommel.files.provenance import Provenance
 from stommel.files.units import unit_of
 
 MINUS = "−"
@@ -59,3 +60,9 @@ def why_unanswered(study: DesignStudy, part: str) -> str:
     """Reason that a study gives for a part it could not answer."""
     reasons = dict(study.unanswered)
     return reasons.get(part, "nothing that was tried is within the limits of the vehicle file")
+
+
+def origin(origin: Provenance) -> str:
+    """Where a number comes from, with the range that it may well lie in."""
+    between = f"; between {short(origin.range[0])} and {short(origin.range[1])}" if origin.range else ""
+    return origin.text + between

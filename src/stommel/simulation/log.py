@@ -42,7 +42,8 @@ EVENT = np.dtype(_numbers("time", "phase", "latitude", "longitude", "depth", "re
 """Every change of phase, and why where a dive or the mission ends."""
 
 OUTSIDE_DATA = len(EVENTS)
-REASONS = (*EVENTS, "outside the ocean's data")
+RATING_PASSED = OUTSIDE_DATA + 1
+REASONS = (*EVENTS, "outside the ocean's data", "hull rating passed")
 """Why: what the software says, and what the simulator adds."""
 
 ROWS, SURFACINGS, EVENT_ROWS, SAMPLES = range(4)

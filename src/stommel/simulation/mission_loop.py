@@ -15,14 +15,15 @@ from stommel.dynamics.equations import state_from_array
 from stommel.dynamics.state import DEPTH, R_PX, STATE_SIZE, V_B
 from stommel.geometry.attitude import attitude_of
 from stommel.geometry.earth import metres_per_radian, to_waypoint
+from stommel.machinery.hull.floating import water_line
 from stommel.ocean.kernel.column import fill_column, water_at
 from stommel.ocean.kernel.grid import BOTTOM, HELD, LAND, TIME, Column, OceanGrid
 from stommel.seawater.table import DensityTable
 from stommel.seawater.water import Water
-from stommel.simulation.log import CELL, OUTSIDE_DATA, Log
+from stommel.simulation.log import CELL, OUTSIDE_DATA, RATING_PASSED, Log
 from stommel.simulation.plant.actuators import actuate
 from stommel.simulation.plant.hull_air import AIR_PERIOD, Hull, hold_air
-from stommel.simulation.plant.motion import advance
+from stommel.simulation.plant.motion import advance, surplus_volume
 from stommel.simulation.plant.parameters import Plant
 from stommel.simulation.plant.power import consume
 from stommel.simulation.plant.sensing import feel_temperature, listen, sense
@@ -120,7 +121,8 @@ def _act(equipment, sea, loop, x, world, water, commands, noise, t):  # type: ig
     V_b = x[V_B] + world.leaked
     done = actuate(plant, world, commands, x[R_PX], V_b, water.P, theta, t, step)
     consume(plant, world, commands, t, step)
-    dry = world.afloat != 0 and antenna_emerges(sea.waves, plant.antenna, theta, t)
+    line = water_line(plant.form, theta, surplus_volume(equipment.vehicle, water, x[V_B]))
+    dry = world.afloat != 0 and antenna_emerges(sea.waves, plant.antenna, line, theta, t)
     listen(equipment.sensors, world, commands.radio, dry, t, step, noise)
     return done
 
@@ -136,6 +138,16 @@ def _write(equipment, loop, column, x, memory, world, water, readings, commands,
 
 
 @inlined
+def _warn_of_depth(hull, log, x, memory, world, t):  # type: ignore[no-untyped-def]  # compiled only
+    """Write down that the hull's rating is passed, once until the vehicle is shallower again."""
+    if x[DEPTH] > hull.rating and not world.too_deep:
+        world.too_deep = 1
+        write_event(log, t, memory, world, x[DEPTH], float(RATING_PASSED))
+    elif x[DEPTH] < hull.rating - 1.0:
+        world.too_deep = 0
+
+
+@inlined
 def _outcome(equipment, x, world, commands, t):  # type: ignore[no-untyped-def]  # compiled only
     """RUNNING, or how the mission ended."""
     battery = equipment.plant.battery
@@ -143,7 +155,7 @@ def _outcome(equipment, x, world, commands, t):  # type: ignore[no-untyped-def] 
         return NOT_FINITE
     if x[DEPTH] > equipment.hull.deepest:
         return LOST
-    if world.energy_total + battery.self_discharge * t > battery.energy:
+    if world.energy_total + world.heat + battery.self_discharge * t > battery.energy:
         return OUT_OF_BATTERY
     if commands.ended == COMPLETE:
         return FINISHED
@@ -168,6 +180,7 @@ def _obey(  # type: ignore[no-untyped-def]  # compiled only
     done = _act(equipment, sea, loop, x, world, water, commands, noise, t)
     _write(equipment, loop, column, x, memory, world, water, readings, commands, noise, log, tick)
     advance(equipment, x, k, trial, world, done, loop, column, t)
+    _warn_of_depth(equipment.hull, log, x, memory, world, t)
     return _outcome(equipment, x, world, commands, t)
 
 

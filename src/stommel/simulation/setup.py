@@ -15,6 +15,7 @@ from stommel.dynamics.state import Actuation
 from stommel.geometry.attitude import quaternion_from_euler
 from stommel.geometry.vectors import Quaternion
 from stommel.ocean.kernel.grid import Column, new_cell, new_column
+from stommel.planning.ballasting import water_of
 from stommel.planning.orders import orders_of
 from stommel.simulation.log import CELL, EVENT, EVENT_ROWS, ROW, ROWS, SAMPLE, SAMPLES, SURFACING, SURFACINGS, Log
 from stommel.simulation.mission_loop import Equipment, Sea
@@ -76,8 +77,9 @@ def prepare(mission: Mission) -> Setup:
     StommelError
         The vehicle cannot fly the dives that the plan asks for.
     """
-    scenario, vehicle = mission.scenario, pack(mission.vehicle, PHYSICS[mission.scenario.physics])
-    plant, sensors = plant_of(mission.vehicle), sensors_of(scenario)
+    scenario, vehicle = mission.scenario, pack(mission.vehicle, PHYSICS[mission.scenario.physics]).copy()
+    plant = plant_of(mission.vehicle, water_of(mission.deployment).mean_temperature_c)
+    sensors = sensors_of(scenario)
     orders = orders_of(mission.deployment, scenario.integration.control_step_s, plant.battery.energy)
     loop = loop_of(mission, vehicle, orders.dives)
     ticks = round(scenario.duration_days * 86400.0 / loop.control_step)
@@ -86,7 +88,7 @@ def prepare(mission: Mission) -> Setup:
     latitude, longitude = radians(start.latitude_deg), radians(start.longitude_deg)
     heading = radians(scenario.heading_deg)
     return Setup(
-        equipment=Equipment(vehicle, plant, sensors, hull_of(scenario, mission.vehicle)),
+        equipment=Equipment(vehicle, plant, sensors, hull_of(scenario, mission.vehicle, vehicle)),
         orders=orders,
         sea=Sea(grid, mission.ocean.table, waves_of(mission)),
         loop=loop,

@@ -8,7 +8,7 @@ from typing import Any
 
 from stommel.errors import FileError, Problem, StommelError
 from stommel.files.opening import TOML_MIB, names_file, read_text
-from stommel.files.provenance import NOT_STATED, Provenance, numbers, separate
+from stommel.files.provenance import NOT_STATED, Provenance, check_ranges, numbers, separate
 from stommel.files.sentences import validated
 from stommel.files.toml_reader import parse_toml
 from stommel.vehicle.checks import problems
@@ -163,7 +163,9 @@ def vehicle_from_text(text: str, origin: str) -> Vehicle:
         As `load_vehicle`.
     """
     document, provenance = separate(parse_toml(text, origin), origin)
-    return Vehicle(_described(document, origin), origin, document, provenance)
+    description = _described(document, origin)
+    check_ranges(document, provenance, origin)
+    return Vehicle(description, origin, document, provenance)
 
 
 def stated_numbers(vehicle: Vehicle) -> list[tuple[str, Any, Provenance]]:

@@ -3,7 +3,7 @@
 from stommel.design.endurance.best_flights import BestFlight, BestFlights, best_flights
 from stommel.design.endurance.endurance import DepthError, Endurance, endurance
 from stommel.design.endurance.sensitivity import Sensitivity, sensitivity
-from stommel.design.endurance.study import EnergyStudy, Gap, GapStep, energy_study
+from stommel.design.endurance.study import EnergyStudy, Gap, GapStep, Interval, energy_study
 
 __all__ = [
     "BestFlight",
@@ -13,6 +13,7 @@ __all__ = [
     "EnergyStudy",
     "Gap",
     "GapStep",
+    "Interval",
     "Sensitivity",
     "best_flights",
     "endurance",

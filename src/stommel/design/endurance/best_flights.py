@@ -244,4 +244,6 @@ def glides_from(dive: Array, climb: Array) -> Glides:
         r_climb=column(climb[:, R_PX]),
         pitch_dive=column(dive[:, THETA]),
         pitch_climb=column(climb[:, THETA]),
+        drive=column(np.abs(dive[:, V_B])),
+        sinking_at_drive=column(-dive[:, V] * np.sin(gamma_down)),
     )

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.analysis import SteadyFlight
+from stommel.analysis.reversal import Inertia, departure, reversal
+from stommel.analysis.stratified import DiveBallast
 from stommel.machinery.power.actuator_work import Quantity
 from stommel.machinery.power.model import EnergyModel
 
@@ -47,6 +49,29 @@ class Glides:
     """[rad]."""
     pitch_climb: Quantity
     """[rad]."""
+    drive: Quantity
+    """Ballast volume beyond neutral that drives the trimmed dive [m3]."""
+    sinking_at_drive: Quantity
+    """Sinking speed at this drive [m/s]."""
+    neutral_top: Quantity = 0.0
+    """Ballast volume at which the vehicle is neutral at the surface [m3]."""
+    neutral_bottom: Quantity = 0.0
+    """The same at the depth of the dive [m3]."""
+
+    def with_ballast(self, ballast: DiveBallast) -> "Glides":
+        """The same flights with the ballast, and at the mean speeds, that stratified water gives."""
+        slower_down, slower_up = ballast.speed_down / self.V, ballast.speed_up / self.V
+        return replace(
+            self,
+            down=self.down * slower_down,
+            over_ground_down=self.over_ground_down * slower_down,
+            up=self.up * slower_up,
+            over_ground_up=self.over_ground_up * slower_up,
+            V_dive=ballast.down,
+            V_climb=ballast.up,
+            neutral_top=ballast.neutral_top,
+            neutral_bottom=ballast.neutral_bottom,
+        )
 
 
 def glides_of(dive: SteadyFlight, climb: SteadyFlight) -> Glides:
@@ -63,6 +88,8 @@ def glides_of(dive: SteadyFlight, climb: SteadyFlight) -> Glides:
         r_climb=climb.r_px,
         pitch_dive=dive.theta,
         pitch_climb=climb.theta,
+        drive=abs(dive.V_b),
+        sinking_at_drive=dive.sinking_speed,
     )
 
 
@@ -75,9 +102,9 @@ class DiveCycle:
     climb_s: Array
     """Time of the climb [s]."""
     turn_s: Array
-    """Time of the turns under water, in which no depth is counted [s]."""
+    """Time of the turns, in which no depth is won [s]: oil out at depth, oil in below or at the surface."""
     surface_s: Array
-    """Time at the surface: antenna out, session, antenna in [s]."""
+    """Time at the surface: the session, in which the antenna comes out [s]."""
     moving_s: Array
     """Time in which an actuator moves [s]."""
     distance_m: Array
@@ -112,7 +139,11 @@ class _Turns:
     deflate_j: Array
     pitch_j: Array
     under_water_s: Array
-    surfacing_s: Array
+    """In which no depth is won, from surfacing to surfacing over the number of dives."""
+    antenna_s: Array
+    """Until the antenna is out."""
+    moving_s: Array
+    """In which pump, valve or pitch drive work, per dive."""
 
 
 def dive_cycle(model: EnergyModel, glides: Glides, depth_m: Quantity) -> DiveCycle:
@@ -127,8 +158,8 @@ def dive_cycle(model: EnergyModel, glides: Glides, depth_m: Quantity) -> DiveCyc
         dive_s=dive_s,
         climb_s=climb_s,
         turn_s=turns.under_water_s,
-        surface_s=(turns.surfacing_s + plan.surface_session_s) / n,
-        moving_s=turns.under_water_s + turns.surfacing_s / n + corrections_s + steering_s,
+        surface_s=np.maximum(turns.antenna_s, plan.surface_session_s) / n,
+        moving_s=turns.moving_s + corrections_s + steering_s,
         distance_m=np.asarray(dive_s * glides.over_ground_down + climb_s * glides.over_ground_up),
         actuators_j={
             INFLATE: turns.inflate_j,
@@ -153,14 +184,37 @@ def _turns(model: EnergyModel, glides: Glides, depth_m: Quantity) -> _Turns:
     shallow_j, shallow_s = pump.deflation(swing, model.pressure(model.plan.upper_turn_m))
     antenna_j, antenna_s = pump.inflation(model.surface_volume_m3 - np.asarray(glides.V_climb), 0.0)  # (eq-e5)
     dump_j, dump_s = pump.deflation(model.surface_volume_m3 - np.asarray(glides.V_dive), 0.0)
+    deep, shallow, leaving = _turn_times(model, glides, inflate_s, shallow_s, dump_s)
     return _Turns(
         inflate_j=inflate_j,
         antenna_j=antenna_j / n,
         deflate_j=stay * shallow_j + dump_j / n,
         pitch_j=aft_j + forward_j,
-        under_water_s=np.maximum(inflate_s, aft_s) + stay * np.maximum(shallow_s, forward_s),  # (eq-e3)
-        surfacing_s=np.maximum(antenna_s, forward_s) + dump_s,
+        under_water_s=deep + stay * shallow + leaving / n,  # (eq-e3)
+        antenna_s=np.maximum(antenna_s, forward_s),
+        moving_s=np.maximum(inflate_s, aft_s)
+        + stay * np.maximum(shallow_s, forward_s)
+        + (np.maximum(antenna_s, forward_s) + dump_s) / n,
     )
+
+
+def _turn_times(
+    model: EnergyModel, glides: Glides, inflate_s: Array, shallow_s: Array, dump_s: Array
+) -> tuple[Array, Array, Array]:
+    """Times that turning at depth, turning below the surface, and leaving the surface cost [s]."""
+    inertia = Inertia(model.inertia_kg, model.rho * model.g)
+    top, bottom = np.asarray(glides.neutral_top), np.asarray(glides.neutral_bottom)
+    down_top, up_top = top - glides.V_dive, np.asarray(glides.V_climb) - top
+    down_bottom, up_bottom = bottom - glides.V_dive, np.asarray(glides.V_climb) - bottom
+
+    def sinking(drive: Array) -> Array:
+        """The vertical speed goes with the root of the ballast beyond neutral."""
+        return np.asarray(glides.sinking_at_drive * np.sqrt(drive / glides.drive))
+
+    deep = reversal(inflate_s, down_bottom, up_bottom, sinking(down_bottom), sinking(up_bottom), inertia)
+    shallow = reversal(shallow_s, up_top, down_top, sinking(up_top), sinking(down_top), inertia)
+    leaving = departure(dump_s, model.surface_volume_m3 - top, down_top, sinking(down_top), inertia)
+    return deep, shallow, leaving
 
 
 def _corrections(model: EnergyModel, glides: Glides) -> tuple[Array, Array]:

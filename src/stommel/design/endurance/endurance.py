@@ -4,13 +4,15 @@ Equation numbers are those of docs/theory/energy.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Any
 
 from stommel.analysis import RequestError, SteadyFlight, UnreachableFlightError, trim
 from stommel.analysis.limits import excesses
+from stommel.analysis.stratified import DiveBallast
 from stommel.design.endurance.dive_cycle import DiveCycle, dive_cycle, glides_of
+from stommel.design.endurance.sea import Sea
 from stommel.errors import StommelError
 from stommel.machinery.power.model import EnergyModel, energy_model
 from stommel.machinery.power.stored_energy import StoredEnergy
@@ -54,6 +56,22 @@ class Endurance:
     stored: StoredEnergy
     endurance_s: float
     """Time until the usable energy is gone [s]."""
+    ballast: DiveBallast | None = None
+    """Ballast that the stratification asks for; None in water of one density."""
+    sea: Sea | None = None
+    """Where it dives; None in the reference water."""
+
+    @property
+    def ballast_swing_m3(self) -> float:
+        """Ballast volume from dive to climb [m3]."""
+        return self.climb.V_b - self.dive.V_b if self.ballast is None else self.ballast.up - self.ballast.down
+
+    @property
+    def flown_speed_m_s(self) -> float:
+        """Way through the water over the time of dive and climb [m/s]; the wanted speed where the water allows it."""
+        if self.ballast is None:
+            return self.wanted.speed_m_s
+        return 2.0 / (1.0 / self.ballast.speed_down + 1.0 / self.ballast.speed_up)
 
     @property
     def days(self) -> float:
@@ -87,6 +105,8 @@ class Endurance:
         total = sum(energies.values())
         return {
             "speed_m_s": self.wanted.speed_m_s,
+            "flown_speed_m_s": self.flown_speed_m_s,
+            "ocean": None if self.sea is None else self.sea.ocean.name,
             "pitch_deg": self.wanted.pitch_deg,
             "depth_m": self.wanted.depth_m,
             "endurance_days": self.days,
@@ -103,7 +123,7 @@ class Endurance:
                 "surface_s": float(cycle.surface_s),
                 "actuators_moving_s": float(cycle.moving_s),
                 "distance_m": float(cycle.distance_m),
-                "ballast_swing_ml": (self.climb.V_b - self.dive.V_b) * 1e6,
+                "ballast_swing_ml": self.ballast_swing_m3 * 1e6,
             },
             "battery": {
                 "rated_wh": self.stored.rated_j / 3600.0,
@@ -122,6 +142,7 @@ def endurance(
     pitch_deg: float | None = None,
     depth_m: float | None = None,
     temperature_c: float | None = None,
+    sea: Sea | None = None,
     physics: Physics = PAPER,
 ) -> Endurance:
     """Find how long and how far a vehicle flies on one charge.
@@ -134,7 +155,10 @@ def endurance(
         The dive; its pitch is negative, and the climb mirrors it. Left out, they are the specification's design speed,
         design pitch and depth.
     temperature_c
-        Temperature of the water [deg C]; the reference water's if left out.
+        Temperature of the water [deg C]; if left out that of the sea, or else the reference water's.
+    sea
+        An ocean, a place and a time: its stratification asks for more ballast from dive to climb. Without it the water
+        has one density.
     physics
         The paper's model, or what the vehicle file adds to it.
 
@@ -155,9 +179,23 @@ def endurance(
         raise RequestError(f"temperature = {temperature_c:g} deg C: must be {COLDEST_C:g} to {WARMEST_C:g}")
     model = energy_model(vehicle, temperature_c=temperature_c)
     wanted = wanted_of(vehicle, speed_m_s, pitch_deg, depth_m)
+    if sea is not None:
+        check_dive(vehicle, model, wanted)
+        vehicle = sea.trimmed(vehicle, physics, wanted.depth_m)
+        if temperature_c is None:
+            temperature_c = sea.water(wanted.depth_m).mean_temperature_c
+        model = energy_model(vehicle, temperature_c=temperature_c)
     check_dive(vehicle, model, wanted)
     dive, climb = flights_of(vehicle, wanted, physics)
-    return balance(model, wanted, dive, climb)
+    found = balance(model, wanted, dive, climb, ballast_in(sea, vehicle, wanted, physics))
+    return replace(found, sea=sea)
+
+
+def ballast_in(sea: Sea | None, vehicle: Vehicle, wanted: Wanted, physics: Physics) -> DiveBallast | None:
+    """Ballast that a sea asks for; None without one."""
+    if sea is None:
+        return None
+    return sea.ballast(vehicle, physics, wanted.pitch_deg, wanted.speed_m_s, wanted.depth_m)
 
 
 def wanted_of(vehicle: Vehicle, speed_m_s: float | None, pitch_deg: float | None, depth_m: float | None) -> Wanted:
@@ -223,9 +261,18 @@ def quick_flights_of(vehicle: Vehicle, wanted: Wanted, physics: Physics) -> tupl
     return found[0], found[1]
 
 
-def balance(model: EnergyModel, wanted: Wanted, dive: SteadyFlight, climb: SteadyFlight) -> Endurance:
+def balance(
+    model: EnergyModel,
+    wanted: Wanted,
+    dive: SteadyFlight,
+    climb: SteadyFlight,
+    ballast: DiveBallast | None = None,
+) -> Endurance:
     """Fly a dive, and hold its energy against the battery."""
-    return spent(model, wanted, dive, climb, dive_cycle(model, glides_of(dive, climb), wanted.depth_m))
+    glides = glides_of(dive, climb)
+    if ballast is not None:
+        glides = glides.with_ballast(ballast)
+    return replace(spent(model, wanted, dive, climb, dive_cycle(model, glides, wanted.depth_m)), ballast=ballast)
 
 
 def spent(model: EnergyModel, wanted: Wanted, dive: SteadyFlight, climb: SteadyFlight, cycle: DiveCycle) -> Endurance:

@@ -1,11 +1,12 @@
-"""How much each assumption matters: elasticity of the endurance, its span, and the value that would reach a target."""
+"""How much each number matters: elasticity of the endurance, its span, and the value that would reach a target."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from math import isfinite
 from typing import Any
 
-from stommel.design.endurance.dive_cycle import fed
-from stommel.design.endurance.endurance import Endurance, Wanted, balance, check_dive, quick_flights_of, spent
+from stommel.design.endurance.endurance import Endurance
+from stommel.design.endurance.varied import Case
 from stommel.errors import StommelError
 from stommel.files.units import unit_of
 from stommel.machinery.power.actuator_models import ACTUATORS, PLAN_KEYS, Actuator
@@ -14,10 +15,17 @@ from stommel.vehicle.schema import Consumer, EnergyPlan
 
 STEP = 0.01
 """Relative step of an elasticity."""
-SPAN_OF_SOURCED, SPAN_OF_ASSUMED, SPAN_OF_MODELLED = 0.10, 0.30, 0.30
-"""How far a number is varied: one with a source, an assumption, the energy of an actuator."""
+SPAN_OF_SOURCED, SPAN_WITHOUT_RANGE = 0.10, 0.30
+"""How far a number is varied that has a source, and one that has neither a source nor a range of its own."""
+RANGE_OF_MODEL = (0.7, 1.3)
+"""Factors between which the computed energy of an actuator is taken to lie; an assumption of the model."""
 TEMPERATURE_SPAN = 5.0
-"""How far the water's temperature is varied [K]."""
+"""How far the water's temperature is varied where its range is not stated [K]."""
+
+CHOICES = frozenset(
+    {"water.temperature_c", "energy.surface_session_s", "energy.dives_per_surfacing", "energy.upper_turn_m"}
+)
+"""Numbers that a mission chooses: they have a range, and are no uncertainty of the vehicle."""
 
 _NUMBERS_OF_CONSUMERS = ("power_w", "standby_w", "duty", "sample_s", "sample_every_s", "seconds_per_surfacing")
 _SHARES = {"usable_fraction", "self_discharge_per_month", "regulator_efficiency", "pump_efficiency",
@@ -55,6 +63,21 @@ class Sensitivity:
     """Value that alone would reach the target; None if none does, or if the target is met."""
 
     @property
+    def uncertain(self) -> bool:
+        """Whether nobody knows the number: it is no printed source, no pilot's choice, and not the sea's."""
+        return self.assumption.origin.kind not in ("source", "chosen") and self.assumption.key not in CHOICES
+
+    @property
+    def favourable(self) -> float:
+        """End of the span at which the endurance is longer."""
+        return self.low if (self.days_at_low or 0.0) > (self.days_at_high or 0.0) else self.high
+
+    @property
+    def unfavourable(self) -> float:
+        """The other end."""
+        return self.high if self.favourable == self.low else self.low
+
+    @property
     def span_days(self) -> float:
         """Distance between the endurances at both ends [days]."""
         ends = [days for days in (self.days_at_low, self.days_at_high) if days is not None]
@@ -69,6 +92,7 @@ class Sensitivity:
             "value": a.value,
             "unit": a.unit,
             "kind": a.origin.kind,
+            "range_stated": a.origin.range is not None,
             "origin": a.origin.text,
             "elasticity": self.elasticity,
             "low": self.low,
@@ -86,7 +110,7 @@ def assumptions(vehicle: Vehicle, result: Endurance) -> Iterator[Assumption]:
     def of(key: str, what: str, value: float) -> Assumption:
         return Assumption(key, what, float(value), unit_of(key) or "1", vehicle.provenance_of(key))
 
-    chosen = Provenance("source", "the dive that is asked about")
+    chosen = Provenance("chosen", "the dive that is asked about")
     yield Assumption("dive.speed_m_s", "speed along the path", wanted.speed_m_s, "m/s", chosen)
     yield Assumption("dive.pitch_deg", "pitch of the dive", wanted.pitch_deg, "degrees", chosen)
     yield Assumption("dive.depth_m", "depth of the dive", wanted.depth_m, "m", chosen)
@@ -105,7 +129,7 @@ def assumptions(vehicle: Vehicle, result: Endurance) -> Iterator[Assumption]:
             yield of(f"energy.{name}", _words(name), value)
     for actuator in ACTUATORS:
         if actuator in described:
-            origin = Provenance("assumption", f"computed from {getattr(model.works, actuator).origin}")
+            origin = Provenance("derived", f"computed from {getattr(model.works, actuator).origin}", RANGE_OF_MODEL)
             what = f"{_ACTUATOR_WORDS[actuator]}: factor on its energy"
             yield Assumption(f"works.{actuator}", what, 1.0, "1", origin)
     for i, consumer in enumerate(model.consumers):
@@ -132,8 +156,8 @@ def sensitivity(
 ) -> list[Sensitivity]:
     """Vary every assumption alone, about its value; the ones with the widest span of endurance come first.
 
-    A number with a source is varied by 10 %, an assumption and the energy of an actuator by 30 %, the temperature by
-    5 K. Of a share above one half, such as an efficiency, the remainder is varied.
+    A number that is derived or assumed is varied over its own range; without one by 30 %, the temperature by 5 K. A
+    number with a source is varied by 10 %. Of a share above one half, such as an efficiency, the remainder is varied.
 
     Parameters
     ----------
@@ -141,9 +165,9 @@ def sensitivity(
         Endurance to reach [days]; where it is missed, the value of each assumption that alone would reach it is sought.
     """
     missed = target_days is not None and result.days < target_days
-    found = []
+    found, case = [], Case(vehicle, result.model, result.wanted, physics, result)
     for assumption in assumptions(vehicle, result):
-        days = _Varied(vehicle, result, physics, assumption.key)
+        days = _Varied(case, assumption.key)
         slope = _elasticity(days, assumption, result.days)
         low, high = _span(assumption, result.model.deepest_m)
         found.append(
@@ -163,52 +187,28 @@ def sensitivity(
 class _Varied:
     """Endurance [days] as a function of one number; None where it cannot be flown."""
 
-    def __init__(self, vehicle: Vehicle, result: Endurance, physics: Physics, key: str) -> None:
-        self.vehicle, self.result, self.physics, self.key = vehicle, result, physics, key
+    def __init__(self, case: Case, key: str) -> None:
+        self.case, self.key = case, key
 
     def __call__(self, value: float) -> float | None:
         try:
-            return self._endurance(value).days
+            days = self.case.changed(self.key, value).endurance().days
         except StommelError:
             return None
-
-    def _endurance(self, value: float) -> Endurance:
-        result = self.result
-        table, _, name = self.key.partition(".")
-        if table == "dive":
-            wanted = replace(result.wanted, **{name: value})
-            check_dive(self.vehicle, result.model, wanted)
-            return self._flown(self.vehicle, wanted)
-        if table == "hydrodynamics":
-            d = self.vehicle.description
-            coefficients = d.hydrodynamics.model_copy(update={name: value})
-            return self._flown(
-                replace(self.vehicle, description=d.model_copy(update={table: coefficients})), result.wanted
-            )
-        model = result.model.changed(self.key, value)
-        if table == "works" or (table == "energy" and name != "regulator_efficiency"):
-            return balance(model, result.wanted, result.dive, result.climb)
-        cycle = result.cycle if table in {"battery", "water"} else fed(result.cycle, model)
-        return spent(model, result.wanted, result.dive, result.climb, cycle)
-
-    def _flown(self, vehicle: Vehicle, wanted: Wanted) -> Endurance:
-        dive, climb = self.result.dive, self.result.climb
-        if wanted.speed_m_s != dive.V or wanted.pitch_deg != self.result.wanted.pitch_deg or vehicle != self.vehicle:
-            dive, climb = quick_flights_of(vehicle, wanted, self.physics)
-        return balance(self.result.model, wanted, dive, climb)
+        return days if isfinite(days) else None
 
 
 def _span(assumption: Assumption, deepest_m: float) -> tuple[float, float]:
+    """Ends between which a number is varied: its own range, or a share of it."""
     key, value = assumption.key, assumption.value
+    if assumption.origin.range is not None:
+        return assumption.origin.range
     name = key.rsplit(".", 1)[-1]
     if name == "temperature_c":
         return value - TEMPERATURE_SPAN, value + TEMPERATURE_SPAN
     if name == "dives_per_surfacing":
         return max(1.0, value - 1.0), value + 1.0
-    if key.startswith("works."):
-        span = SPAN_OF_MODELLED
-    else:
-        span = SPAN_OF_SOURCED if assumption.origin.kind == "source" else SPAN_OF_ASSUMED
+    span = SPAN_OF_SOURCED if assumption.origin.kind in ("source", "chosen") else SPAN_WITHOUT_RANGE
     # of an efficiency it is the loss that is uncertain
     change = span * (1.0 - value if name in _SHARES and value > 0.5 else abs(value))
     low, high = value - change, value + change

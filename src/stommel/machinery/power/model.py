@@ -32,6 +32,8 @@ class EnergyModel:
     """Temperature of the water, and so of the battery [deg C]."""
     surface_volume_m3: float
     """Ballast volume that raises the antenna [m3]."""
+    inertia_kg: float
+    """Mass of the vehicle with the added mass along its axis [kg]."""
     deepest_m: float
     """Depth that the hull is rated for [m]."""
 
@@ -102,7 +104,7 @@ def energy_model(vehicle: Vehicle, *, temperature_c: float | None = None) -> Ene
     assert plan is not None
     assert engine is not None
     _check_consumers(vehicle.origin, plan, d.consumers)
-    surface = plan.surface_ballast_ml if plan.surface_ballast_ml is not None else engine.volume_ml[1]
+    surface = plan.surface_ballast_ml if plan.surface_ballast_ml is not None else engine.range_ml[1]
     return EnergyModel(
         battery=battery,
         plan=plan,
@@ -113,6 +115,7 @@ def energy_model(vehicle: Vehicle, *, temperature_c: float | None = None) -> Ene
         g=d.water.gravity_m_s2,
         temperature_c=d.water.temperature_c if temperature_c is None else temperature_c,
         surface_volume_m3=surface / 1e6,
+        inertia_kg=d.mass_kg + d.added_inertia.surge_kg,
         deepest_m=deepest,
     )
 

@@ -140,7 +140,7 @@ def _draw_masses(axes: "Axes", d: VehicleFile) -> None:
                   **dot)  # fmt: skip
     if engine is not None and engine.bladder_position_m is not None:
         x, _, z = engine.bladder_position_m
-        volume = f"{number(engine.volume_ml[0])} to {number(engine.volume_ml[1])} ml"
+        volume = f"{number(engine.range_ml[0])} to {number(engine.range_ml[1])} ml"
         axes.plot(x, -z, "h", color=ORANGE, markersize=12, gid="bladder", label=f"bladder, {volume}", **dot)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from stommel.compilation import inlined
 from stommel.control.commands import Commands
+from stommel.geometry.interpolation import interpolated
 from stommel.simulation.plant.parameters import PITCH_DRIVE, PUMP, STEERING, Engine, MassDrive, Plant, SteeringDrive
 
 OIL_RESOLUTION = 1e-7
@@ -30,21 +31,6 @@ class Rates(NamedTuple):
 def _towards(value: float, goal: float, speed: float, step: float) -> float:
     """Rate that takes `value` towards `goal` within a step, no faster than `speed`."""
     return min(speed, max(-speed, (goal - value) / step))
-
-
-@inlined
-def interpolated(x: float, grid: np.ndarray, values: np.ndarray) -> float:
-    """Value at `x`, straight between the points of an ascending grid; the ends hold."""
-    if x <= grid[0]:
-        first: float = values[0]
-        return first
-    for k in range(1, len(grid)):
-        if x <= grid[k]:
-            share = (x - grid[k - 1]) / (grid[k] - grid[k - 1])
-            between: float = values[k - 1] + share * (values[k] - values[k - 1])
-            return between
-    last: float = values[-1]
-    return last
 
 
 @inlined

@@ -5,6 +5,7 @@ from math import inf, nan, pi, radians
 import numpy as np
 
 from stommel.errors import FileError, Problem
+from stommel.machinery.hull.floating import hull_form
 from stommel.machinery.power import EnergyModel, energy_model
 from stommel.simulation.plant.parameters import (
     ALWAYS,
@@ -33,8 +34,8 @@ _SLOWEST = 1e-6
 """A drive that stalls on a slope still creeps [m/s], so that time goes on."""
 
 
-def plant_of(vehicle: Vehicle) -> Plant:
-    """Return the plant of a vehicle.
+def plant_of(vehicle: Vehicle, temperature_c: float | None = None) -> Plant:
+    """Return the plant of a vehicle whose battery is as warm as the water of its dives; the reference water's if None.
 
     Where the file describes engine, drives, consumers and battery, their own models give flow, speed and energy; where
     it does not, the actuators move at the speeds that the file states, and energy is not counted. Sensors
@@ -46,7 +47,7 @@ def plant_of(vehicle: Vehicle) -> Plant:
         The file gives no range or flow of the buoyancy engine, or nothing that steers.
     """
     d = vehicle.description
-    model = energy_model(vehicle) if _tells_energy(d) else None
+    model = energy_model(vehicle, temperature_c=temperature_c) if _tells_energy(d) else None
     return Plant(
         mass=_mass_drive(d, model),
         engine=_engine(vehicle, model),
@@ -54,6 +55,7 @@ def plant_of(vehicle: Vehicle) -> Plant:
         loads=_loads(model),
         battery=_battery(vehicle, model),
         antenna=d.antenna.position_m if d.antenna is not None else (nan, nan, nan),
+        form=hull_form(d),
     )
 
 

@@ -10,11 +10,12 @@ from stommel.compilation import inlined
 from stommel.dynamics.acceleration import state_from_velocities
 from stommel.dynamics.equations import net_weight, rates_by, state_from_array, state_into_array, static_moment
 from stommel.dynamics.inertia import factors_at, moving_mass_position
-from stommel.dynamics.state import DEPTH, MOMENTA, R_PX, STATE_SIZE, V_B, X_EAST, X_NORTH, Actuation
+from stommel.dynamics.state import DEPTH, R_PX, STATE_SIZE, V_B, X_EAST, X_NORTH, Actuation
 from stommel.geometry.attitude import attitude_of, wrapped
+from stommel.machinery.hull.floating import emerged_moment
 from stommel.ocean.kernel.column import water_at
 from stommel.ocean.kernel.grid import BOTTOM, TIME
-from stommel.simulation.plant.hull_air import fill_with_water
+from stommel.simulation.plant.hull_air import fill_with_water, place_water
 
 AFLOAT_DEPTH = 0.15
 """Depth at which a rising vehicle counts as floating [m]: its hull breaks the surface."""
@@ -47,8 +48,8 @@ def _step(vehicle, x, k, trial, actuation, column, age, h):  # type: ignore[no-u
 
 
 @inlined
-def _float(vehicle, x, column, age, mu, step):  # type: ignore[no-untyped-def]  # compiled only
-    """Rest on the water, moving with it, wings level."""
+def _float(vehicle, form, x, column, age, mu, step):  # type: ignore[no-untyped-def]  # compiled only
+    """Rest on the water, moving with it, wings level, by the end that stands out."""
     x[DEPTH] = 0.0
     state = state_from_array(x)
     water = water_at(column, 0.0, age)
@@ -57,7 +58,8 @@ def _float(vehicle, x, column, age, mu, step):  # type: ignore[no-untyped-def]  
     half = 0.5 * attitude.psi
     # heading kept; the pitch follows the moving mass to where it balances
     s = static_moment(vehicle, water, moving_mass_position(vehicle, state.r_px, mu), state.V_b)
-    balanced = max(-STEEPEST_AFLOAT, min(STEEPEST_AFLOAT, math.atan(-s[0] / s[2])))
+    s_1 = s[0] + water.rho * emerged_moment(form, attitude.theta, surplus_volume(vehicle, water, state.V_b))
+    balanced = max(-STEEPEST_AFLOAT, min(STEEPEST_AFLOAT, math.atan(-s_1 / s[2])))
     theta = attitude.theta + min(1.0, step / PITCH_TIME_AFLOAT) * (balanced - attitude.theta)
     half_pitch = 0.5 * theta
     Q = (
@@ -74,6 +76,12 @@ def _float(vehicle, x, column, age, mu, step):  # type: ignore[no-untyped-def]  
 
 
 @inlined
+def surplus_volume(vehicle, water, V_b):  # type: ignore[no-untyped-def]  # compiled only
+    """Volume of a floating vehicle that stands out of the water [m3]."""
+    return max(0.0, -net_weight(vehicle, water, V_b) / (water.rho * vehicle.g))
+
+
+@inlined
 def advance(  # type: ignore[no-untyped-def]  # compiled only
     equipment, x, k, trial, world, done, loop, column, t
 ):
@@ -84,18 +92,22 @@ def advance(  # type: ignore[no-untyped-def]  # compiled only
     mu = done.steering if by_mass else 0.0
     mu_dot = done.steering_rate if by_mass else 0.0
     u_b = done.u_b - fill_with_water(equipment.hull, world, t, step)
+    if world.leaked > 0.0:
+        water = water_at(column, x[DEPTH], age)
+        place_water(equipment.hull, vehicle, water.rho, world.leaked, attitude_of(state_from_array(x).Q).theta)
     world.afloat = int(_floats(vehicle, x, column, age, world.rising != 0))
     before_north, before_east, before_depth = x[X_NORTH], x[X_EAST], x[DEPTH]
     if world.afloat:
         x[R_PX] += done.r_px_dot * step
         x[V_B] += u_b * step
-        _float(vehicle, x, column, age, mu, step)
+        _float(vehicle, equipment.plant.form, x, column, age, mu, step)
         U = water_at(column, 0.0, age).U
         x[X_NORTH] += U[0] * step
         x[X_EAST] += U[1] * step
     elif _lies_on_the_bottom(vehicle, x, column, age):
         x[R_PX] += done.r_px_dot * step
         x[V_B] += u_b * step
+        _rest_on_the_bottom(vehicle, x, water_at(column, x[DEPTH], age))
     else:
         if done.r_px_dot != 0.0 or done.u_b != 0.0 or mu_dot != 0.0:
             world.moved_at = t
@@ -109,7 +121,7 @@ def advance(  # type: ignore[no-untyped-def]  # compiled only
             mu_here = mu + mu_dot * (i + 0.5 - 0.5 * n) * h
             actuation = Actuation(done.r_px_dot, 0.0, u_b, delta_r, mu_here, mu_dot)
             _step(vehicle, x, k, trial, actuation, column, age + i * h, h)
-        _contact(x, column)
+        _contact(vehicle, x, column, age + step)
         U = water_at(column, x[DEPTH], age).U
         north, east = (x[X_NORTH] - before_north) / step - U[0], (x[X_EAST] - before_east) / step - U[1]
         sinking = (x[DEPTH] - before_depth) / step
@@ -136,9 +148,19 @@ def _lies_on_the_bottom(vehicle, x, column, age):  # type: ignore[no-untyped-def
 
 
 @inlined
-def _contact(x, column):  # type: ignore[no-untyped-def]  # compiled only
+def _rest_on_the_bottom(vehicle, x, water):  # type: ignore[no-untyped-def]  # compiled only
+    """Stop over the ground, not in the water, which flows by."""
+    state, none = state_from_array(x), Actuation(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    still = (0.0, 0.0, 0.0)
+    state_into_array(
+        state_from_velocities(vehicle, still, still, state.X, state.Q, state.r_px, state.V_b, none, water), x
+    )
+
+
+@inlined
+def _contact(vehicle, x, column, age):  # type: ignore[no-untyped-def]  # compiled only
     """Neither out of the water nor into the ground: stop there."""
     x[DEPTH] = max(x[DEPTH], 0.0)
     if x[DEPTH] > column.place[BOTTOM]:
         x[DEPTH] = column.place[BOTTOM]
-        x[MOMENTA] = 0.0
+        _rest_on_the_bottom(vehicle, x, water_at(column, x[DEPTH], age))

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.geometry.vectors import Vector
+from stommel.machinery.hull.floating import HullForm
 
 Array = NDArray[np.float64]
 
@@ -114,3 +115,5 @@ class Plant(NamedTuple):
     battery: Battery
     antenna: Vector
     """Tip of the antenna in the body frame [m]; not numbers where the vehicle file does not say."""
+    form: HullForm
+    """What of the hull stands out of the water."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from stommel.compilation import inlined
 from stommel.control.commands import LOAD_CLIMB, LOAD_DIVE, LOAD_DRIFT, LOAD_SURFACE, LOAD_UNDERWATER, Commands
-from stommel.simulation.plant.actuators import interpolated
+from stommel.geometry.interpolation import interpolated
 from stommel.simulation.plant.parameters import (
     ALWAYS,
     CLIMB,
@@ -34,7 +34,9 @@ def consume(plant: Plant, world: np.record, commands: Commands, t: float, step: 
     for i in range(len(world.energy)):
         world.energy[i] += _power(plant.loads, i, commands, moving) * step
         total += world.energy[i]
-    load(plant.battery, world, (total - world.energy_total) / step, total + plant.battery.self_discharge * t)
+    used = total + world.heat + plant.battery.self_discharge * t
+    load(plant.battery, world, (total - world.energy_total) / step, used)
+    world.heat += plant.battery.resistance * world.current * world.current * step
     world.energy_total = total
 
 

@@ -61,7 +61,7 @@ def compass(sensors: Sensors, plant_state: np.record, Q: Quaternion, noise: np.r
     b = add(add(b, sensors.hard_iron), disturbing_field(sensors, plant_state))
     east = cross(down, b)
     north = cross(east, down)
-    psi = math.atan2(east[0], north[0]) + sensors.heading_noise * noise.standard_normal()
+    psi = math.atan2(east[0], north[0]) + sensors.declination + sensors.heading_noise * noise.standard_normal()
     theta = math.atan2(-down[0], math.sqrt(down[1] * down[1] + down[2] * down[2]))
     return Felt(down[1], down[2], theta, psi)
 

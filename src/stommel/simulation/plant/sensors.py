@@ -32,6 +32,8 @@ class Sensors(NamedTuple):
     """Beyond it no bottom is heard [m]."""
     field: Vector
     """The Earth's magnetic field, north, east, down, in units of its own strength."""
+    declination: float
+    """What headings are corrected by, from magnetic to true north [rad]."""
     hard_iron: Vector
     """Field of the vehicle's magnets in the body frame, in the same units."""
     soft_iron: Matrix
@@ -75,7 +77,7 @@ class Sensors(NamedTuple):
 def sensors_of(scenario: ScenarioFile) -> Sensors:
     """Sensor errors of a scenario, SI units and radians."""
     s, ctd, step = scenario.sensors, scenario.ctd, scenario.integration.control_step_s
-    dip = radians(s.magnetic_inclination_deg)
+    dip, east = radians(s.magnetic_inclination_deg), radians(s.magnetic_declination_deg)
     rows = s.soft_iron
     return Sensors(
         attitude_noise=radians(s.attitude_noise_deg),
@@ -88,7 +90,8 @@ def sensors_of(scenario: ScenarioFile) -> Sensors:
         position_noise=s.gps_noise_m,
         first_fix_time=s.first_fix_s,
         altimeter_range=s.altimeter_range_m,
-        field=(cos(dip), 0.0, sin(dip)),
+        field=(cos(dip) * cos(east), cos(dip) * sin(east), sin(dip)),
+        declination=east if s.known_declination_deg is None else radians(s.known_declination_deg),
         hard_iron=s.hard_iron,
         soft_iron=(*rows[0], *rows[1], *rows[2]),
         pump_field=s.pump_field,

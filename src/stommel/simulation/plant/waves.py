@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from stommel.compilation import inlined
 from stommel.geometry.vectors import Vector
+from stommel.machinery.hull.floating import hull_form, slice_at
+from stommel.planning.ballasting import surplus_afloat
 from stommel.simulation.scenario.mission import Mission
 
 Array = NDArray[np.float64]
@@ -69,29 +71,35 @@ def not_followed(omega: Array, period: float) -> Array:
 
 
 def heave_period(mission: Mission) -> float:
-    """Natural period of heave [s] of the vehicle when its hull stands out of the water at the pitch of the surface.
+    """Natural period of heave [s] of the vehicle as it floats in its mission, at the pitch of the surface.
 
-    The hull's cross-section at the water line gives the stiffness; mass and added mass in heave resist.
+    The slice of the hull at the water line gives the stiffness; mass and added mass in heave resist.
     """
-    d = mission.vehicle.description
-    tilt = abs(np.sin(np.radians(mission.scenario.surface.pitch_deg)))
-    if d.hull is None or d.hull.outer_diameter_mm is None or tilt < 0.1:
+    d, theta = mission.vehicle.description, float(np.radians(mission.scenario.surface.pitch_deg))
+    form = hull_form(d)
+    if len(form.tail_volume) == 0 or abs(np.sin(theta)) < 0.1:
         return HEAVE_PERIOD
-    area = 0.25 * pi * (d.hull.outer_diameter_mm / 1e3) ** 2 / tilt
+    area = slice_at(form, theta, surplus_afloat(mission.deployment)) / abs(float(np.sin(theta)))
     stiffness = mission.vehicle.neutral_density_kg_m3 * d.water.gravity_m_s2 * area
     return 2.0 * pi * sqrt((d.mass_kg + d.added_inertia.heave_kg) / stiffness)
 
 
 @inlined
-def antenna_emerges(waves: Waves, antenna: Vector, theta: float, t: float) -> bool:
+def antenna_height(antenna: Vector, line: float, theta: float) -> float:
+    """Height of the antenna over the calm surface, which crosses the axis at `line` [m]."""
+    return (antenna[0] - line) * math.sin(theta) - antenna[2] * math.cos(theta)
+
+
+@inlined
+def antenna_emerges(waves: Waves, antenna: Vector, line: float, theta: float, t: float) -> bool:
     """Whether the antenna of a vehicle that floats with wings level at pitch `theta` is out of the water now.
 
-    The centre of buoyancy lies on the calm surface; waves that the vehicle does not follow wash over the antenna. One
+    The calm surface crosses the axis at `line` [m]; waves that the vehicle does not follow wash over the antenna. One
     whose place is not known always emerges.
     """
     if math.isnan(antenna[0]):
         return True
-    height = antenna[0] * math.sin(theta) - antenna[2] * math.cos(theta)
+    height = antenna_height(antenna, line, theta)
     for i in range(len(waves.omega)):
         height -= waves.amplitude[i] * math.cos(waves.omega[i] * t + waves.phase[i])
     return height > 0.0

@@ -9,12 +9,13 @@ WORLD = np.dtype(
     [
         # where the vehicle is
         ("latitude", "f8"), ("longitude", "f8"), ("metres_north", "f8"), ("metres_east", "f8"),
-        ("afloat", "i8"), ("rising", "i8"), ("outside", "i8"), ("speed", "f8"),
+        ("afloat", "i8"), ("rising", "i8"), ("too_deep", "i8"), ("outside", "i8"), ("speed", "f8"),
         # machinery
         ("steering", "f8"), ("pumping", "i8"), ("valve_open", "i8"), ("mass_moving", "i8"), ("steering_moving", "i8"),
         ("V_b_wanted", "f8"), ("moved_at", "f8"),
         # battery and loads
-        ("energy", "f8", (len(CONSUMERS),)), ("energy_total", "f8"), ("voltage", "f8"), ("current", "f8"),
+        ("energy", "f8", (len(CONSUMERS),)), ("energy_total", "f8"), ("heat", "f8"),
+        ("voltage", "f8"), ("current", "f8"),
         ("calling", "i8"), ("called_at", "f8"),
         # inside the hull
         ("leaked", "f8"), ("air_temperature", "f8"), ("internal_pressure", "f8"),

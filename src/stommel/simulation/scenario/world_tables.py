@@ -41,6 +41,10 @@ class Sensing(Table):
     """Standard deviation of the height above the bottom."""
     altimeter_range_m: NotNegative = 50.0
     """Farther away the bottom is not heard."""
+    magnetic_declination_deg: Annotated[float, Field(strict=True, ge=-180, le=180)] = 0.0
+    """Of the Earth's field, east of true north positive."""
+    known_declination_deg: Annotated[float, Field(strict=True, ge=-180, le=180)] | None = None
+    """What the software corrects its headings by; the true declination if left out. The difference is an error."""
     magnetic_inclination_deg: Annotated[float, Field(strict=True, ge=-90, le=90)] = 45.0
     """Dip of the Earth's field below the horizontal."""
     hard_iron: Triple = (0.0, 0.0, 0.0)
@@ -112,6 +116,8 @@ class Leak(Table):
     after_hours: NotNegative = 0.0
     rate_ml_min: NotNegative = 0.0
     """Zero for a tight hull."""
+    position_m: Triple | None = None
+    """Where the water stays, in the body frame: a compartment of its own. If left out, it runs to the lowest place."""
 
 
 Policy = Literal["error", "hold", "climatology"]

@@ -1,9 +1,9 @@
 """What the vehicle can do: travel, volume and speed of its actuators."""
 
-from math import radians
+from math import inf, radians
 from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, PrivateAttr, model_validator
 
 from stommel.files.fields import Interval, Point, Positive, Table, ordered
 
@@ -35,10 +35,26 @@ class BuoyancyEngine(Table):
     reservoir_position_m: Point | None = None
     oil_density_kg_m3: Annotated[float, Field(strict=True, ge=500, le=1500)] | None = None
 
+    _stroke_ml: float = PrivateAttr(inf)
+
+    def limit_to_stroke(self, stroke_ml: float) -> None:
+        """Let the machinery that the file describes bound the volume: no more than its stroke moves."""
+        self._stroke_ml = stroke_ml
+
+    @property
+    def range_ml(self) -> tuple[float, float]:
+        """Range of the ballast volume in millilitres: as stated, or about its middle what the stroke moves."""
+        low, high = self.volume_ml
+        if high - low <= self._stroke_ml:
+            return low, high
+        middle = 0.5 * (low + high)
+        return middle - 0.5 * self._stroke_ml, middle + 0.5 * self._stroke_ml
+
     @property
     def volume_m3(self) -> tuple[float, float]:
-        """Range of the ballast volume in cubic metres."""
-        return self.volume_ml[0] / 1e6, self.volume_ml[1] / 1e6
+        """`range_ml` in cubic metres."""
+        low, high = self.range_ml
+        return low / 1e6, high / 1e6
 
     @model_validator(mode="after")
     def _volume_is_an_interval(self) -> Self:

@@ -1,9 +1,9 @@
 """A glider, as its file describes it."""
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, model_validator
 
 from stommel.files.fields import Table
 from stommel.vehicle.schema.actuators import Actuators
@@ -56,6 +56,12 @@ class VehicleFile(Table):
     def mass_kg(self) -> float:
         """Total mass m = m_rb + m_p + m_b [kg]."""
         return self.rigid_body.mass_kg + self.moving_mass.mass_kg + self.ballast.mass_kg
+
+    @model_validator(mode="after")
+    def _engine_moves_no_more_than_its_stroke(self) -> Self:
+        if self.engine is not None and self.actuators.buoyancy is not None:
+            self.actuators.buoyancy.limit_to_stroke(self.engine.measured_piston.working_volume_ml)
+        return self
 
     @property
     def steers_by(self) -> Literal["rudder", "roll"] | None:

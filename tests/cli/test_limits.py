@@ -7,6 +7,8 @@ import pytest
 from stommel.vehicle import builtin_text
 from tests.support.command import Command
 
+STALL = next(line for line in builtin_text("zju").splitlines() if line.startswith("stall_begins_deg"))
+
 
 def changed(folder: Path, *changes: tuple[str, str]) -> str:
     text = builtin_text("zju")
@@ -80,7 +82,7 @@ def test_free_optima_carry_no_remark(stommel: Command, verb: str) -> None:
 
 def test_wanted_flights_beyond_stall_are_named(stommel: Command, tmp_path: Path) -> None:
     """Table 1 has 5.52 deg of incidence at -5 deg and 3.80 at -10 deg: stalled from 5 deg on, only the first is."""
-    name = changed(tmp_path, ("stall_begins_deg = { value = 15", "stall_begins_deg = { value = 5"))
+    name = changed(tmp_path, (STALL, "stall_begins_deg = 5"))
     found = stommel("envelope", name, "--json").json["needs"]["beyond_stall"]
     assert [(row["speed_m_s"], round(row["pitch_deg"], 6)) for row in found] == [(0.4, -5.0), (0.4, 5.0)]
     assert "beyond the stall angle, out of reach of any range: 0.4 m/s at pitch -5.0 deg" in words(

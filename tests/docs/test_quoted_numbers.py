@@ -178,7 +178,7 @@ def test_lever_of_the_side_force(zju: stommel.Vehicle) -> None:
     assert file.specification is not None
     lever = file.hydrodynamics.yaw_moment_per_rad_kg / file.hydrodynamics.side_force_per_rad_kg_m
     assert (
-        f"acts {lever:g} m from its centre, on a hull of {file.specification.overall_length_m:g} m"
+        f"acts {lever:g} m from the centre of a vehicle of {file.specification.overall_length_m:g} m"
         in text_of("docs/checked.md")
     )  # fmt: skip
 

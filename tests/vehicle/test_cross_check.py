@@ -16,7 +16,8 @@ from tests.support.command import Command
 ZJU = builtin_text("zju")
 
 
-VOLTAGE = "\nvoltage_v = { value = 24"
+RANGE = ", range = [24, 25.9] }"
+VOLTAGE = next(line for line in ZJU.splitlines() if line.startswith("voltage_v"))
 
 
 def changed(*changes: tuple[str, str], text: str = ZJU) -> str:
@@ -96,7 +97,12 @@ def findings(text: str) -> dict[str, str]:
             "moving_mass.speed_mm_s = 9",
         ),
         ("speed_deg_s = { value = 20", "speed_deg_s = { value = 40", "rudder_speed_differs", "rudder.speed_deg_s = 40"),
-        (VOLTAGE, VOLTAGE.replace("24", "14.8"), "voltage_differs", "battery.voltage_v = 14.8"),
+        (
+            VOLTAGE,
+            VOLTAGE.replace("value = 24", "value = 14.8").replace(RANGE, " }"),
+            "voltage_differs",
+            "battery.voltage_v = 14.8",
+        ),
     ],
 )
 def test_one_number_that_contradicts_another(old: str, new: str, name: str, words: str) -> None:

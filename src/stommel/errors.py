@@ -8,6 +8,8 @@ class StommelError(Exception):
 
 
 _LONGEST_NAME = 300
+_LONGEST_MESSAGE = 420
+"""Characters of a sentence about a file; the longest that stommel makes itself lists the keys of a table."""
 
 
 @dataclass(frozen=True)
@@ -19,7 +21,16 @@ class Problem:
     message: str
 
     def __str__(self) -> str:
-        return f"{_shown(self.file)}: {self.message}"
+        return f"{_shown(self.file)}: {one_line(self.message, _LONGEST_MESSAGE)}"
+
+
+def one_line(text: str, longest: int) -> str:
+    """A text on one line of at most `longest` characters, cut in its middle."""
+    plain = " ".join(text.split()) if "\n" in text else text
+    if len(plain) <= longest:
+        return plain
+    half = (longest - 5) // 2
+    return f"{plain[:half]} ... {plain[-half:]}"
 
 
 def _shown(name: str) -> str:

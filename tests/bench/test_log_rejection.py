@@ -134,7 +134,7 @@ def test_rows_before_the_motor_starts_are_left_out(log_file: Path) -> None:
         ("[columns]", "[colums]", ["colums", "did you mean columns"]),
         ("[0.0, 300.0]", "[300.0, 0.0]", ["first number must be less"]),
         ("[columns]", "[columns", ["is not valid TOML", "line 6, column 9"]),
-        ("piston_diameter_mm = 50", "piston_diameter_mm = -50", ["piston_diameter_mm", "greater than 0"]),
+        ("piston_diameter_mm = 50", "piston_diameter_mm = -50", ["piston_diameter_mm", "between 2 and 500 mm"]),
     ],
 )
 def test_wrong_column_maps_are_refused(log_file: Path, find: str, replacement: str, words: list[str]) -> None:

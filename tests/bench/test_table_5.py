@@ -128,7 +128,7 @@ def test_impossible_tables_are_refused(tmp_path: Path, rows: list[str], words: l
             "must be less than volume_l = 40",
         ),
         ("[chamber]\nvolume_l = 400\nhull_volume_l = 57", "hull_compressibility_per_pa is missing"),
-        ("[limits]\nlargest_loss_mpa = 0", "greater than 0"),
+        ("[limits]\nlargest_loss_mpa = 0", "between 0.0001 and 20 MPa"),
         ("[limits]\nlargest_los_mpa = 1", "did you mean largest_loss_mpa"),
     ],
 )

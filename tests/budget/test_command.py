@@ -67,7 +67,7 @@ BATTERY = 'name = "battery package"\nbay = "pitch control bay (front)"'
             ["-0.03 to 0.13 m", "outside its bay", "0 to 0.75 m"],
         ),
         ("position_m = [0.25, 0, 0]", "position_m = [0.25, 0, 0.05]", ["outside the hull", "0.105 m"]),
-        ("mass_kg = 8.6", "mass_kg = -8.6", ["mass_kg = -8.6: must be at least 0"]),
+        ("mass_kg = 8.6", "mass_kg = -8.6", ["mass_kg = -8.6: must be 0, or between 0.001 and 1000 kg"]),
         ("mass_kg = 8.6", "mass_kg = 8.6\nballast = true", ["either moving or ballast"]),
         ("diameter_mm = 172\n", "", ["length_mm and diameter_mm go together"]),
         ('name = "carriage with nut"', 'name = "battery package"', ["another part has this name"]),
@@ -96,7 +96,7 @@ def test_bad_parts_are_refused(stommel: Command, tmp_path: Path, old: str, new: 
         (("budget", "zju", "--density", "1:2:3"), ["--density = '1:2:3'"]),
         (("budget", "zju", "--density", "1027:1010"), ["1027:1010"]),
         (("budget", "zju", "--density", "5"), ["at least 900"]),
-        (("budget", "zju", "--foam-density", "0"), ["foam density = 0"]),
+        (("budget", "zju", "--foam-density", "0"), ["--foam-density = 0: must be between 10 and 950 kg/m3"]),
     ],
 )
 def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[str]) -> None:

@@ -22,7 +22,7 @@ def refused(found: Outcome, *words: str) -> None:
     [
         (("trim", "zju", "--speed", 5, "--pitch", -35), ["not reachable", "nearest reachable"]),
         (("trim", "zju", "--speed", 0.4, "--pitch", -90), ["pitch = -90 deg", "between -90 and 90"]),
-        (("trim", "zju", "--speed", -1, "--pitch", -35), ["speed = -1 m/s", "greater than 0"]),
+        (("trim", "zju", "--speed", -1, "--pitch", -35), ["--speed = -1: must be between 0.005 and 5 m/s"]),
         (("trim", "zju", "--speed", "fast", "--pitch", -35), ["--speed"]),
         (("trim", "slocum", "--speed", 0.4), ["give --pitch", "specification.design_pitch_deg"]),
         (("trim", "zju", "--speed", 0.4, "--pitch", -35, "--glide-path", -30), ["not both"]),
@@ -31,7 +31,7 @@ def refused(found: Outcome, *words: str) -> None:
         (("trmi", "zju"), ["trmi"]),
         (("table", "zju", "--speed", "0.1:0.8:-0.1", "--pitch", -35), ["--speed", "never lead"]),
         (("table", "zju", "--speed", "a", "--pitch", -35), ["--speed", "range like first:last:step"]),
-        (("table", "zju", "--speed", "0:1:1e-9", "--pitch", -35), ["at most 100000"]),
+        (("table", "zju", "--speed", "0:1:1e-9", "--pitch", -35), ["at most 20000"]),
         (
             ("steady", "rogue", "--moving-mass-mm", 4, "--ballast-ml", -350, "--rudder-deg", 3),
             ["lateral plane", "sway_kg"],
@@ -43,7 +43,7 @@ def refused(found: Outcome, *words: str) -> None:
         (("turn", "slocum", "--speed", 0.3, "--pitch", -23, "--turn-rate", 0.01), ["rudder nor by rolling"]),
         (("root-locus", "zju", "--over", "wing.colour", "--from", 0, "--to", 1), ["wing.colour", "no number"]),
         (("root-locus", "zju", "--over", "wing_position", "--from", 0, "--to", 0), ["two different"]),
-        (("root-locus", "zju", "--over", "moving_mass.mass_kg", "--from", -5, "--to", 5), ["greater than 0"]),
+        (("root-locus", "zju", "--over", "moving_mass.mass_kg", "--from", -5, "--to", 5), ["between 0.02 and 1000 kg"]),
         (("envelope", "rogue"), ["[actuators.buoyancy]"]),
         (("envelope", "zju", "--speed", 0.4), ["go together"]),
         (("derivative", "zju", "--states", "nowhere.json"), ["nowhere.json", "No such file"]),

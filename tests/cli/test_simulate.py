@@ -114,7 +114,7 @@ def test_shipped_missions_are_listed(stommel: Command) -> None:
         ({"ocean": "styx"}, ["styx", "unknown analytic ocean"]),
         ({"extra": "dive_depth = 3"}, ["dive_depth"]),
         ({"extra": "duration_days = 4"}, ["not valid TOML"]),
-        ({"extra": "[surface]\nsession_s = 5"}, ["surface.session_s = 5", "at least 60"]),
+        ({"extra": "[surface]\nsession_s = 5"}, ["surface.session_s = 5", "between 60 and 86400 s"]),
     ],
 )
 def test_bad_plans_are_refused_in_one_line(

@@ -29,6 +29,7 @@ from stommel.control.dive_cycle import (
 
 PLAN = DivePlan(
     depth=100.0,
+    turns_early=0.0,
     theta=0.6,
     V_b_dive=-1e-4,
     V_b_climb=2e-4,

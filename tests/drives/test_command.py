@@ -41,9 +41,9 @@ def test_terminal_fits_80_columns(stommel: Command) -> None:
     ("arguments", "words"),
     [
         (("drives", "rogue"), ["rogue.toml", "[drives.pitch]"]),
-        (("drives", "zju", "--steepest", 0), ["steepest pitch = 0 deg", "greater than 0"]),
-        (("drives", "zju", "--speed", -1), ["speed = -1 m/s"]),
-        (("drives", "zju", "--hold", -1), ["hold = -1 s"]),
+        (("drives", "zju", "--steepest", 0), ["--steepest = 0: must be between 0.1 and 90 deg"]),
+        (("drives", "zju", "--speed", -1), ["--speed = -1: must be between 0.005 and 5 m/s"]),
+        (("drives", "zju", "--hold", -1), ["--hold = -1: must be between 0 and 10000 s"]),
     ],
 )
 def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[str]) -> None:
@@ -59,13 +59,17 @@ def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[st
     ("old", "new", "words"),
     [
         ("stops_mm = { value = [-60, 560]", "stops_mm = { value = [-50, 560]", "must lie outside switches_mm"),
-        ("lead_angle_deg = { value = 3.6", "lead_angle_deg = { value = 50", "must be greater than 0 and less than 45"),
+        (
+            "lead_angle_deg = { value = 3.6",
+            "lead_angle_deg = { value = 50",
+            "must be at least 0.05 and less than 45 degrees",
+        ),
         (
             "resistance_ohm = 20",
             "resistance_ohm = -20",
-            "drives.pitch.motor.resistance_ohm = -20: must be greater than 0",
+            "drives.pitch.motor.resistance_ohm = -20: must be between 0.001 and 2000 ohm",
         ),
-        ("gearbox_efficiency = { value = 0.5", "gearbox_efficiency = { value = 1.5", "at most 1"),
+        ("gearbox_efficiency = { value = 0.5", "gearbox_efficiency = { value = 1.5", "between 0.01 and 1"),
     ],
 )
 def test_bad_tables_name_key_value_and_range(

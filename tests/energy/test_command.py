@@ -66,13 +66,13 @@ def refused(found: Outcome, *words: str) -> None:
     ("arguments", "words"),
     [
         (("zju", "--depth", 250), ["depth = 250 m", "hull.depth_rating_m = 200 m"]),
-        (("zju", "--depth", 0), ["depth = 0 m", "greater than 0"]),
-        (("zju", "--depth", "nan"), ["depth = nan m"]),
+        (("zju", "--depth", 0), ["--depth = 0: must be between 0.5 and 12000 m"]),
+        (("zju", "--depth", "nan"), ["--depth = nan: must be between 0.5 and 12000 m"]),
         (("zju", "--speed", 2), ["not reachable", "nearest reachable"]),
         (("zju", "--speed", 0.4, "--pitch", -60), ["moving mass", "nearest reachable"]),
         (("zju", "--pitch", 35), ["pitch = 35 deg", "between -90 and 0"]),
-        (("zju", "--speed", -1), ["speed = -1 m/s", "greater than 0"]),
-        (("zju", "--temperature", 90), ["temperature = 90 deg C", "-3 to 45"]),
+        (("zju", "--speed", -1), ["--speed = -1: must be between 0.005 and 5 m/s"]),
+        (("zju", "--temperature", 90), ["--temperature = 90: must be between -3 and 45 deg C"]),
         (
             ("slocum",),
             ["slocum.toml: [battery] is missing", "[energy] is missing", "[[consumers]] is missing", "power_w"],
@@ -87,13 +87,13 @@ def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[st
     ("old", "new", "words"),
     [
         ("power_w = { value = 1.0, assumption = \"TMS", "power_w = { value = -1.0, assumption = \"TMS",
-         ["consumers.0.power_w = -1.0: must be at least 0"]),
+         ["consumers.0.power_w = -1.0: must be between 0 and 500 W"]),
         ("sample_s = { value = 1,", "sample_s = { value = 25,", ["consumers.5", "duty of 2.5", "at most 1"]),
         ("surface_session_s = { value = 180,", "surface_session_s = 80 #",
          ["consumers.6.seconds_per_surfacing = 90", "energy.surface_session_s = 80"]),
         ("name = \"altimeter\"", "name = \"compass PNI TCM5\"", ["consumers.5.name", "two consumers"]),
         ("regulator_efficiency = { value = 0.85", "regulator_efficiency = { value = 1.2",
-         ["energy.regulator_efficiency = 1.2", "at most 1"]),
+         ["energy.regulator_efficiency = 1.2", "between 0.01 and 1"]),
         ("derating_temperature_c = { value = [-20, 0,", "derating_temperature_c = { value = [0, 0,", ["must rise"]),
         ("derating_fraction = { value = [0.7, ", "derating_fraction = { value = [", ["must have the same number"]),
         ("usable_fraction = {", "usabel_fraction = {", ["usabel_fraction", "did you mean usable_fraction"]),
@@ -111,7 +111,7 @@ def test_bad_files(stommel: Command, tmp_path: Path, old: str, new: str, words: 
 def test_a_duty_above_one(stommel: Command, tmp_path: Path) -> None:
     text = builtin_text("zju").replace('on = "always"', 'on = "always"\nduty = 1.5', 1)
     (tmp_path / "bad.toml").write_text(text)
-    refused(stommel("endurance", "bad.toml"), "consumers.0.duty = 1.5", "at most 1")
+    refused(stommel("endurance", "bad.toml"), "consumers.0.duty = 1.5", "between 0 and 1")
 
 
 def test_a_motor_too_weak_for_the_depth(stommel: Command, tmp_path: Path) -> None:

@@ -63,13 +63,13 @@ def test_terminal_and_plot(stommel: Command, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("zju", "--pressure-mpa", -1), ["pressure = -1 MPa", "at least 0"]),
-        (("zju", "--pressure-mpa", "nan"), ["pressure = nan MPa"]),
+        (("zju", "--pressure-mpa", -1), ["--pressure-mpa = -1: must be between 0 and 200 MPa"]),
+        (("zju", "--pressure-mpa", "nan"), ["--pressure-mpa = nan: must be between 0 and 200 MPa"]),
         (("zju", "--inflate-ml", 600), ["inflate = 600 ml", "0 to 500.7 ml"]),
-        (("zju", "--inflate-ml", -5), ["inflate = -5 ml", "greater than 0"]),
+        (("zju", "--inflate-ml", -5), ["--inflate-ml = -5: must be between 0.001 and 100000 ml"]),
         (("zju", "--inflate-ml", 100, "--deflate-ml", 200), ["deflate = 200 ml", "inflated 100 ml"]),
-        (("zju", "--inflate-ml", 100, "--hold-s", -1), ["hold = -1 s"]),
-        (("zju", "--motor-speed-rpm", 0), ["motor speed = 0 r/min", "greater than 0"]),
+        (("zju", "--inflate-ml", 100, "--hold-s", -1), ["--hold-s = -1: must be between 0 and 86400 s"]),
+        (("zju", "--motor-speed-rpm", 0), ["--motor-speed-rpm = 0: must be between 1 and 50000 r/min"]),
         (("rogue",), ["no table [engine]", "slocum-1000m"]),
         (("zju", "--engine", "webb"), ["neither an example nor a file", "high-pressure, slocum-1000m"]),
         (("zju", "--plot", "."), ["cannot be written"]),

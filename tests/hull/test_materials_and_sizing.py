@@ -205,7 +205,7 @@ def test_longest_dry_bay_if_no_length_is_given() -> None:
         (
             "[x]\ntitle='x'\nelastic_modulus_mpa=-1\npoisson_ratio=0.3\ndensity_kg_m3=1000\nthermal_expansion_per_k=0\n"
             "corrosion_grade=3\ncorrosion=''\nmachinability_grade=3\nmachinability=''\n",
-            "[x] elastic_modulus_mpa = -1: must be greater than 0",
+            "[x] elastic_modulus_mpa = -1: must be between 10 and 1500000 MPa",
         ),
         (
             "[x]\ntitle='x'\nelastic_modulus_mpa=1e5\npoisson_ratio=0.3\ndensity_kg_m3=1000\n"

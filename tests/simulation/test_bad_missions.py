@@ -73,9 +73,9 @@ def test_more_drive_than_the_engine_has_is_refused() -> None:
 
 
 def test_trim_far_from_the_water_of_the_dives_is_refused() -> None:
-    """Neutral at 300 m in a stratified sea, the vehicle would sink with 57 ml of oil outside."""
+    """Neutral at 300 m in a stratified sea, the vehicle would sink with 87 ml of oil outside."""
     with pytest.raises(
-        StommelError, match=r"test\.toml: ballasting\.neutral_depth_m: .* dive with 57 and climb with 225"
+        StommelError, match=r"test\.toml: ballasting\.neutral_depth_m: .* dive with 87 and climb with 194"
     ):
         flown(ballasting={"neutral_depth_m": 300.0})
 

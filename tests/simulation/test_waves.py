@@ -98,7 +98,7 @@ def sometimes() -> Flown:
         dives={"depth_m": 150.0, "pitch_deg": 35.0, "speed_m_s": 0.35},
         surface={"session_s": 100.0, "longest_s": 110.0},
         sensors=QUIET | {"first_fix_s": 66.0},
-        waves={"significant_height_m": 8.0},
+        waves={"significant_height_m": 0.5},
         duration_days=1.0,
     )
 

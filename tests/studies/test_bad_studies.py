@@ -30,7 +30,7 @@ SWEEP = 'kind = "sweep"\n[[parameters]]\n'
         (SWEEP + 'key = "mission.dives.depth_m"\nvalue = [1]', ["value", "did you mean values"]),
         ('kind = "sweep"', ["[parameters] is missing"]),
         ('kind = "monte_carlo"\n' + UNIFORM, ["runs is missing"]),
-        ('kind = "monte_carlo"\nruns = -3\n' + UNIFORM, ["runs = -3", "at least 1"]),
+        ('kind = "monte_carlo"\nruns = -3\n' + UNIFORM, ["runs = -3", "between 1 and 1000000"]),
         ('kind = "sobol"\nruns = 12\n' + UNIFORM, ["runs = 12", "power of 2", "16"]),
         ('kind = "guess"\nruns = 3\n' + UNIFORM, ["kind = 'guess'", "latin_hypercube"]),
         ('kind = "monte_carlo"\nruns = 3\n' + UNIFORM.replace("uniform", "cauchy"), ["'cauchy'", "lognormal"]),
@@ -66,7 +66,7 @@ def test_refused_with_one_line(folder: Path, write: Write, text: str, words: lis
 def test_refused_by_the_command(folder: Path, write: Write) -> None:
     study = write('kind = "monte_carlo"\nruns = 3\n' + UNIFORM)
     assert "must end with .nc or .zarr" in refused(folder, study, "--output", "result.csv")
-    assert "--workers 0: must be at least 1" in refused(folder, study, "--workers", 0)
+    assert "--workers = 0: must be between 1 and 1024" in refused(folder, study, "--workers", 0)
     assert "missing.toml: cannot be read: No such file" in refused(folder, "missing.toml")
     nobody = refused(folder, study, "--scheduler", "nonsense://1")
     assert "--scheduler nonsense://1: must look like tcp://host:8786" in nobody

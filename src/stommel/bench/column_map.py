@@ -9,14 +9,19 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from stommel.bench.failures import BenchFileError, BenchRequestError, bench_files
 from stommel.bench.quantities import QUANTITIES
 from stommel.errors import Problem
+from stommel.files.fields import Name
 from stommel.files.opening import exists, require_regular
 from stommel.files.provenance import separate
+from stommel.files.ranges import GREATEST_SEED, between
 from stommel.files.sentences import validated
 from stommel.files.toml_reader import read_toml
 
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-NotNegativeNumber = Annotated[float, Field(strict=True, ge=0, allow_inf_nan=False)]
-PositiveNumber = Annotated[float, Field(strict=True, gt=0, allow_inf_nan=False)]
+Number = Annotated[float, between(-1e12, 1e12)]
+"""A reading or a constant in its own unit."""
+
+
+MOST_ROWS = 1_000_000
+"""Of a log, about."""
 
 
 class MapTable(BaseModel):
@@ -28,9 +33,9 @@ class MapTable(BaseModel):
 class Channel(MapTable):
     """Where a quantity stands, and in which unit."""
 
-    unit: str
+    unit: Name
     """One of the units that the quantity may be written in."""
-    column: str | None = None
+    column: Name | None = None
     """Name of the column."""
     value: Number | None = None
     """Constant of the whole log, where no column holds it."""
@@ -51,7 +56,7 @@ class Channel(MapTable):
 class Columns(MapTable):
     """The quantities of an engine log."""
 
-    run: str | None = None
+    run: Name | None = None
     """Column whose text tells one run from the next; without it the file is one run."""
     time: Channel
     pressure: Channel
@@ -82,22 +87,22 @@ class Columns(MapTable):
 class Checks(MapTable):
     """When a log is refused."""
 
-    longest_gap: PositiveNumber = 3.0
+    longest_gap: Annotated[float, between(1, 1e6)] = 3.0
     """Greatest time between two rows, in multiples of the usual one."""
-    stuck_rows: Annotated[int, Field(strict=True, ge=2)] = 10
+    stuck_rows: Annotated[int, Field(strict=True, ge=2, le=MOST_ROWS)] = 10
     """Rows that a sensor may show the same reading while others change."""
-    saturated_rows: Annotated[int, Field(strict=True, ge=2)] = 3
+    saturated_rows: Annotated[int, Field(strict=True, ge=2, le=MOST_ROWS)] = 3
     """Rows that a sensor may lie at an end of its range."""
-    fewest_rows: Annotated[int, Field(strict=True, ge=3)] = 20
+    fewest_rows: Annotated[int, Field(strict=True, ge=3, le=MOST_ROWS)] = 20
     """Rows that a run must have while the motor turns."""
 
 
 class Generated(MapTable):
     """How the model made this log."""
 
-    vehicle: str
-    seed: int
-    parameters: dict[str, Number]
+    vehicle: Name
+    seed: Annotated[int, Field(strict=True, ge=0, le=GREATEST_SEED)]
+    parameters: dict[str, Annotated[float, between(0, 1e20)]]
     """Constants of the engine that were used, in SI units."""
 
 
@@ -105,10 +110,10 @@ class EngineLogMap(MapTable):
     """Description of an engine log."""
 
     format: Literal[1] = 1
-    origin: str = "measured"
+    origin: Annotated[str, Field(max_length=400)] = "measured"
     """Where the log comes from, in words; repeated in every result."""
     delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
-    piston_diameter_mm: PositiveNumber | None = None
+    piston_diameter_mm: Annotated[float, between(2, 500)] | None = None
     """Of the reservoir cylinder; the vehicle's if left out."""
     columns: Columns
     checks: Checks = Checks()

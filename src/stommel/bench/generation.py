@@ -25,6 +25,7 @@ PAPER_SPEEDS_RPM = (3500.0, 5250.0, 7000.0, 8750.0)
 
 MOST_ROWS = 100_000
 """Of one run."""
+MOST_RUNS = 1000
 
 
 @dataclass(frozen=True)
@@ -110,6 +111,9 @@ def generate_log(
 
 
 def _check_request(seed: int, plan: BenchPlan, noise: SensorNoise) -> None:
+    runs = len(plan.pressures) * len(plan.motor_speeds)
+    if runs > MOST_RUNS:
+        raise BenchRequestError(f"{runs} runs: at most {MOST_RUNS} pressures times motor speeds are allowed")
     shortest = plan.longest / MOST_ROWS
     for words, value, possible, allowed in (
         ("seed", seed, seed >= 0, "at least 0"),

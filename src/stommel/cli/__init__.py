@@ -12,6 +12,10 @@ _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 """Why an answer cannot be written to standard output."""
 
 
+_LONGEST_LINE = 480
+"""Characters of a line of an error, whatever was given."""
+
+
 def main() -> NoReturn:
     """Run the command line; no traceback reaches a user, unless STOMMEL_TRACEBACK is set."""
     if sys.stdout is None:  # closed by the caller, as with `>&-`
@@ -65,6 +69,8 @@ def _usage_message(error: Exception) -> str:
 
 
 def _fail(message: str, status: int) -> int:
+    from stommel.errors import one_line
+
     for line in message.splitlines():
-        print(f"error: {line}", file=sys.stderr)  # noqa: T201 - this is the command line
+        print(f"error: {one_line(line, _LONGEST_LINE)}", file=sys.stderr)  # noqa: T201 - this is the command line
     return status

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stommel.cli.finish import finish
+from stommel.cli.numbers import number_option
 from stommel.cli.options import ForceOption, JsonOption, VehicleArgument, load
 from stommel.cli.output import number, show_table, show_values, show_warnings
 from stommel.cli.paths import PlotOption, file_parser, refuse_existing
@@ -23,7 +24,7 @@ def budget(
             "--density", help="Density of the water [kg/m3], or least:greatest of a sea area; the file's if left out."
         ),
     ] = None,
-    foam_density: Annotated[float, typer.Option("--foam-density", help="Density of foam to add [kg/m3].")] = 200.0,
+    foam_density: Annotated[float, number_option("--foam-density", 10, 950, "kg/m3", "Density of foam to add")] = 200.0,
     apply: Annotated[
         Path | None,
         typer.Option(

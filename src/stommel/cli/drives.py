@@ -3,10 +3,9 @@
 from math import degrees
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from stommel.cli.finish import finish
-from stommel.cli.options import JsonOption, VehicleArgument, load
+from stommel.cli.numbers import number_option
+from stommel.cli.options import SPEEDS, JsonOption, VehicleArgument, load
 from stommel.cli.output import number, show_table, show_values, show_warnings
 from stommel.cli.paths import PlotOption
 
@@ -18,16 +17,16 @@ def drives(
     vehicle: VehicleArgument,
     steepest: Annotated[
         float | None,
-        typer.Option("--steepest", help="Steepest pitch, up and down [deg]; the specification's if left out."),
+        number_option("--steepest", 0.1, 90, "deg", "Steepest pitch, up and down; the specification's if left out"),
     ] = None,
     speed: Annotated[
         float | None,
-        typer.Option("--speed", help="Speed at the rudder [m/s]; the specification's greatest if left out."),
+        number_option("--speed", *SPEEDS, "m/s", "Speed at the rudder; the specification's greatest if left out"),
     ] = None,
     rudder: Annotated[
-        float | None, typer.Option("--rudder", help="Rudder angle of a turn [deg]; its travel if left out.")
+        float | None, number_option("--rudder", 0.1, 90, "deg", "Rudder angle of a turn; its travel if left out")
     ] = None,
-    hold: Annotated[float, typer.Option("--hold", help="Time that the rudder is held over [s].")] = 60.0,
+    hold: Annotated[float, number_option("--hold", 0, 10000, "s", "Time that the rudder is held over")] = 60.0,
     plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:

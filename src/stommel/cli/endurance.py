@@ -5,7 +5,18 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stommel.cli.finish import finish
-from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.numbers import number_option
+from stommel.cli.options import (
+    ANGLES,
+    DEPTHS,
+    SPEEDS,
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
 from stommel.cli.output import number, show_entries, show_notes, show_table, show_values
 from stommel.cli.paths import PlotOption
 from stommel.files.units import counted
@@ -19,15 +30,19 @@ MOST_SHOWN = 12
 
 def endurance(
     vehicle: VehicleArgument,
-    depth: Annotated[float | None, typer.Option("--depth", help="Depth of the dives [m]; the specification's.")] = None,
+    depth: Annotated[
+        float | None, number_option("--depth", *DEPTHS, "m", "Depth of dives; as specified if left out")
+    ] = None,
     speed: Annotated[
-        float | None, typer.Option("--speed", help="Speed along the path [m/s]; the specification's design speed.")
+        float | None, number_option("--speed", *SPEEDS, "m/s", "Speed along the path; as specified if left out")
     ] = None,
     pitch: Annotated[
-        float | None, typer.Option("--pitch", help="Pitch of the dives [deg], negative; the specification's.")
+        float | None,
+        number_option("--pitch", *ANGLES, "deg", "Pitch of the dives, negative; as specified if left out"),
     ] = None,
     temperature: Annotated[
-        float | None, typer.Option("--temperature", help="Temperature of the water [deg C]; water.temperature_c.")
+        float | None,
+        number_option("--temperature", -3, 45, "deg C", "Temperature of the water; the file's if left out"),
     ] = None,
     ocean: Annotated[
         str | None,

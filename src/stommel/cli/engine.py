@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stommel.cli.finish import finish
-from stommel.cli.options import JsonOption, VehicleArgument, load
+from stommel.cli.numbers import number_option
+from stommel.cli.options import PRESSURES, TURNS, VOLUMES, JsonOption, VehicleArgument, load
 from stommel.cli.output import number, show_notes, show_table, show_values
 from stommel.cli.paths import PlotOption
 
@@ -15,13 +16,13 @@ if TYPE_CHECKING:
 
 def engine(
     vehicle: VehicleArgument,
-    pressure: Annotated[float, typer.Option("--pressure-mpa", help="Pressure of the sea, gauge [MPa].")] = 0.0,
-    inflate: Annotated[float | None, typer.Option("--inflate-ml", help="Oil to pump into the bladder [ml].")] = None,
-    deflate: Annotated[float | None, typer.Option("--deflate-ml", help="Oil to let back [ml].")] = None,
-    hold: Annotated[float, typer.Option("--hold-s", help="Pause after inflating [s].")] = 0.0,
+    pressure: Annotated[float, number_option("--pressure-mpa", *PRESSURES, "MPa", "Pressure of the sea, gauge")] = 0.0,
+    inflate: Annotated[float | None, number_option("--inflate-ml", *VOLUMES, "ml", "Oil to pump")] = None,
+    deflate: Annotated[float | None, number_option("--deflate-ml", *VOLUMES, "ml", "Oil to let back")] = None,
+    hold: Annotated[float, number_option("--hold-s", 0, 86400, "s", "Pause after inflating")] = 0.0,
     motor_speed: Annotated[
         float | None,
-        typer.Option("--motor-speed-rpm", help="Speed of the inflating motor [r/min]; the file's if left out."),
+        number_option("--motor-speed-rpm", *TURNS, "r/min", "Speed of the inflating motor; the file's if left out"),
     ] = None,
     ideal: Annotated[bool, typer.Option("--ideal", help="Without losses, as the paper's own simulation.")] = False,
     other: Annotated[

@@ -6,8 +6,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stommel.cli.finish import finish
-from stommel.cli.numbers import numbers
-from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.numbers import numbers, pairs_of
+from stommel.cli.options import (
+    ANGLES,
+    SPEEDS,
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
 from stommel.cli.output import number, show_table, show_values
 from stommel.errors import StommelError
 
@@ -39,7 +48,7 @@ def envelope(
     if (speed is None) != (pitch is None):
         raise StommelError("--speed and --pitch go together: a region has both")
     if speed is not None and pitch is not None:
-        wanted = [(v, p) for v in numbers(speed, "--speed") for p in numbers(pitch, "--pitch")]
+        wanted = _region(speed, pitch)
     else:
         wanted = specified_flights(glider) if _specifies(glider) else []
     needs = ranges_needed(glider, wanted, physics=switches) if wanted else None
@@ -58,6 +67,12 @@ def envelope(
         **(best.as_row() if best is not None else {"best_glide": None, "fastest": None}),
     }
     finish(answer, None, as_json, lambda _: _show(glider.name, reach, best, needs))
+
+
+def _region(speed: str, pitch: str) -> list[tuple[float, float]]:
+    """Every pair of a speed and a pitch."""
+    speeds, pitches = numbers(speed, "--speed", SPEEDS, "m/s"), numbers(pitch, "--pitch", ANGLES, "deg")
+    return pairs_of(speeds, pitches, "speeds", "pitches")
 
 
 def _specifies(glider: "Vehicle") -> bool:

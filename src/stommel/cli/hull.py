@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stommel.cli.finish import finish
-from stommel.cli.options import JsonOption, VehicleArgument, load
+from stommel.cli.numbers import number_option
+from stommel.cli.options import DEPTHS, JsonOption, VehicleArgument, load
 from stommel.cli.output import number, show_notes, show_table, show_values, show_warnings
 from stommel.cli.paths import PlotOption
 
@@ -20,18 +21,19 @@ def hull(
     material: Annotated[
         list[str] | None, typer.Option("--material", help="A material; again for more. All known ones if left out.")
     ] = None,
-    depth: Annotated[float | None, typer.Option("--depth", help="Working depth [m] instead of the file's.")] = None,
+    depth: Annotated[
+        float | None, number_option("--depth", *DEPTHS, "m", "Working depth; the file's if left out")
+    ] = None,
     pressure: Annotated[
-        float | None, typer.Option("--pressure-mpa", help="Working pressure [MPa] instead of a depth.")
+        float | None, number_option("--pressure-mpa", 0.001, 200, "MPa", "Working pressure instead of a depth")
     ] = None,
     wall: Annotated[
-        float | None, typer.Option("--wall", help="Wall to judge [mm] instead of the one that is needed.")
+        float | None, number_option("--wall", 0.1, 200, "mm", "Wall to judge instead of the one that is needed")
     ] = None,
     knock_down: Annotated[
         float | None,
-        typer.Option(
-            "--knock-down",
-            help="Share of a perfect tube's buckling pressure that imperfections leave, 0 to 1; the file's.",
+        number_option(
+            "--knock-down", 0.1, 1, "", "Share of a perfect tube's buckling pressure that is left; the file's"
         ),
     ] = None,
     materials_file: Annotated[Path | None, typer.Option("--materials", help="TOML file of further materials.")] = None,

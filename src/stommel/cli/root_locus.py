@@ -6,6 +6,7 @@ import typer
 
 from stommel.cli.design_flight import design_pitch, design_speed
 from stommel.cli.finish import finish
+from stommel.cli.numbers import count_option, number_option
 from stommel.cli.options import (
     JsonOption,
     PhysicsChoice,
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
     from stommel.analysis import RootLocus
 
 
+VALUES = (-1e6, 1e6)
+"""Of any number of a vehicle file; its own field says what it may be."""
+
+
 def root_locus(
     vehicle: VehicleArgument,
     over: Annotated[
@@ -35,9 +40,9 @@ def root_locus(
             "vehicle file in the file's unit, such as rigid_body.centre_of_mass_m.2",
         ),
     ],
-    start: Annotated[float, typer.Option("--from", help="First value.")],
-    stop: Annotated[float, typer.Option("--to", help="Last value.")],
-    points: Annotated[int, typer.Option("--points", help="How many values.")] = 41,
+    start: Annotated[float, number_option("--from", *VALUES, "", "First value")],
+    stop: Annotated[float, number_option("--to", *VALUES, "", "Last value")],
+    points: Annotated[int, count_option("--points", 2, 2000, "How many values")] = 41,
     speed: SpeedOption = None,
     pitch: PitchOption = None,
     physics: PhysicsOption = PhysicsChoice.paper,

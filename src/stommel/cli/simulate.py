@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stommel.cli.finish import finish
+from stommel.cli.numbers import seed_option
 from stommel.cli.options import JsonOption
-from stommel.cli.output import number, show_table, show_values
+from stommel.cli.output import number, show_notes, show_table, show_values, show_warnings
 from stommel.cli.paths import PlotsOption, file_parser
 from stommel.cli.status import INTERRUPTED
 from stommel.cli.vehicle_check import show_vehicle_check, vehicle_check
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 _FIRST_DAYS = 0.02
 """Flown once before the time is taken, so that compiling and loading are not in it."""
+_SHOWN = 12
+"""Waypoints in the table."""
 _SHORT_WAIT = 6.0
 """Loading the kept machine code takes less; whoever waits longer sees it being compiled [s]."""
 
@@ -40,9 +43,16 @@ def simulate(
         ),
     ] = None,
     plots: PlotsOption = None,
-    seed: Annotated[
-        int | None, typer.Option("--seed", min=0, help="Of every random draw; the mission file's if left out.")
+    track: Annotated[
+        Path | None,
+        typer.Option(
+            "--track",
+            metavar="FILE",
+            parser=file_parser("--track", ".geojson", ".kml"),
+            help="Track with waypoints and surfacings for other maps, .geojson or .kml.",
+        ),
     ] = None,
+    seed: Annotated[int | None, seed_option("Of every random draw; the mission file's if left out")] = None,
     speed_up: Annotated[
         bool, typer.Option("--speed-up", help="Also tell how many times faster than real time it was flown.")
     ] = False,
@@ -62,6 +72,7 @@ def simulate(
         raise OutputError(f"--output {output}: is the folder of --plots as well")
     from stommel.simulation.results.summary import summary
     from stommel.simulation.scenario.loading import load_mission
+    from stommel.simulation.scenario.remarks import remarks
     from stommel.simulation.scenario.shipped import mission_path
 
     loaded = load_mission(mission_path(mission))
@@ -71,10 +82,11 @@ def simulate(
         flown, seconds = _fly(loaded, speed_up)
     row = summary(flown)
     row["vehicle_check"] = vehicle_check(loaded.vehicle)
+    row["warnings"] = [warning.as_row() for warning in remarks(loaded)]
     row["flight_s"] = seconds
     row["speed_up"] = None if seconds is None else row["days"] * 86400.0 / seconds
     with _interruptible("while writing; the files that are there are whole"):
-        written = _write(flown, output, plots)
+        written = _write(flown, output, plots, track)
     finish(row, written, as_json, _show)
 
 
@@ -159,8 +171,8 @@ def _speed_column() -> "ProgressColumn":
     return Speed(Column(min_width=21, justify="right"))
 
 
-def _write(flown: "Flown", output: Path | None, plots: Path | None) -> list[Path]:
-    if output is None and plots is None:
+def _write(flown: "Flown", output: Path | None, plots: Path | None, track: Path | None) -> list[Path]:
+    if output is None and plots is None and track is None:
         return []
     from stommel.simulation.results.dataset import dataset_of, write_netcdf
 
@@ -168,6 +180,11 @@ def _write(flown: "Flown", output: Path | None, plots: Path | None) -> list[Path
     if output is not None:
         write_netcdf(dataset, output)
         written.append(output)
+    if track is not None:
+        from stommel.simulation.results.track import write_track
+
+        write_track(dataset, track)
+        written.append(track)
     if plots is not None:
         from stommel.simulation.pictures import save_pictures
 
@@ -176,9 +193,12 @@ def _write(flown: "Flown", output: Path | None, plots: Path | None) -> list[Path
 
 
 def _show(row: dict[str, Any]) -> None:
+    from stommel.simulation.results.verdict import duration
+
     values = {
+        "mission": f"{row['name']}: {row['vehicle']} in {row['ocean']}",
         "outcome": row["outcome"],
-        "time": f"{_duration(row['days'])}, {counted(row['dives'], 'dive')}, deepest {row['deepest_m']:.1f} m",
+        "time": f"{duration(row['days'])}, {counted(row['dives'], 'dive')}, deepest {row['deepest_m']:.1f} m",
         "distance": _distances(row),
         "seed": str(row["seed"]),
     }
@@ -197,23 +217,46 @@ def _show(row: dict[str, Any]) -> None:
     if row["speed_up"] is not None:
         values["speed"] = f"{row['speed_up']:,.0f} times real time, flown in {row['flight_s']:.3g} s"
     values["events"] = ", ".join(f"{name}: {count}" for name, count in row["events"].items()) or "none"
-    show_values(f"{row['name']}: {row['vehicle']} in {row['ocean']}", values)
+    show_values(row["verdict"], values)
+    show_warnings(f"{warning['name']}: {warning['message']}" for warning in row["warnings"])
+    if row["waypoints"]:
+        _show_waypoints(row["waypoints"])
     if row["energy_wh"] is not None:
         _show_energy(row["energy_wh"])
     show_vehicle_check(row["vehicle_check"])
-
-
-def _duration(days: float) -> str:
-    """A time in the unit that reads well."""
-    if days < 0.1:
-        return counted(f"{days * 1440.0:.3g}", "minute")
-    return counted(f"{days * 24.0:.3g}", "hour") if days < 2.0 else counted(f"{days:.4g}", "day")
 
 
 def _distances(row: dict[str, Any]) -> str:
     km = [row[f"distance_{way}_km"] for way in ("made_good", "over_ground", "through_water")]
     made, ground, water = (f"{1e3 * d:.0f} m" if max(km) < 3.0 else f"{d:.1f} km" for d in km)
     return f"{made} made good, {ground} over ground, {water} through water"
+
+
+def _show_waypoints(waypoints: list[dict[str, Any]]) -> None:
+    """Waypoints and the legs to them; of a long list the last that were sought and what comes after."""
+    first = max(0, min(sum(w["reached"] for w in waypoints) - _SHOWN + 2, len(waypoints) - _SHOWN))
+    rows = [
+        [
+            str(w["number"]),
+            w["reached_utc"][5:16].replace("T", " ") if w["reached"] else "no",
+            number(w["closest_m"], 0),
+            _in_km(w["distance_at_end_m"]),
+            number(w["leg_length_km"], 1),
+            number(w["leg_time_hours"], 1),
+            number(w["leg_made_good_m_s"], 2),
+            number(w["beside_line_greatest_m"], 0),
+        ]
+        for w in waypoints[first : first + _SHOWN]
+    ]
+    columns = ["no.", "reached\nUTC", "nearest\nm", "to go\nkm", "leg\nkm", "time\nh", "made good\nm/s", "off line\nm"]
+    typer.echo()
+    show_table("Waypoints, and the legs to them", columns, rows)
+    if len(waypoints) > _SHOWN:
+        show_notes([f"{len(rows)} of {counted(len(waypoints), 'waypoint')} are shown; --json has all"])
+
+
+def _in_km(metres: float | None) -> str:
+    return number(None if metres is None else metres / 1e3, 1)
 
 
 def _show_energy(energy: dict[str, float]) -> None:

@@ -2,10 +2,10 @@
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from stommel.cli.finish import finish
+from stommel.cli.numbers import number_option
 from stommel.cli.options import (
+    ANGLES,
     IgnoreLimitsOption,
     JsonOption,
     PhysicsChoice,
@@ -26,14 +26,15 @@ if TYPE_CHECKING:
 def steady(
     vehicle: VehicleArgument,
     moving_mass_mm: Annotated[
-        float, typer.Option("--moving-mass-mm", help="Moving mass forward of the centre of buoyancy [mm].")
+        float, number_option("--moving-mass-mm", -5000, 5000, "mm", "Moving mass forward of the centre of buoyancy")
     ],
-    ballast_ml: Annotated[float, typer.Option("--ballast-ml", help="Ballast volume [ml]; negative dives.")],
+    ballast_ml: Annotated[float, number_option("--ballast-ml", -1e5, 1e5, "ml", "Ballast volume; negative dives")],
     rudder_deg: Annotated[
-        float, typer.Option("--rudder-deg", help="Rudder [deg]; positive yaws the nose to starboard.")
+        float, number_option("--rudder-deg", *ANGLES, "deg", "Rudder; positive yaws the nose to starboard")
     ] = 0.0,
     roll_mass_deg: Annotated[
-        float, typer.Option("--roll-mass-deg", help="Moving mass about the hull [deg]; positive swings it to port.")
+        float,
+        number_option("--roll-mass-deg", -180, 180, "deg", "Moving mass about the hull; positive to port"),
     ] = 0.0,
     physics: PhysicsOption = PhysicsChoice.paper,
     ignore_limits: IgnoreLimitsOption = False,

@@ -7,7 +7,16 @@ import typer
 from stommel.cli.design_flight import design_pitch, design_speed
 from stommel.cli.finish import finish
 from stommel.cli.numbers import MOST, NumberError, numbers
-from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
+from stommel.cli.options import (
+    ANGLES,
+    SPEEDS,
+    JsonOption,
+    PhysicsChoice,
+    PhysicsOption,
+    VehicleArgument,
+    load,
+    physics_of,
+)
 from stommel.cli.output import number, show_table
 from stommel.compilation import one_question
 
@@ -34,8 +43,8 @@ def table(
     Example: stommel table zju --speed 0.4 --pitch -5:-60:-5
     """
     glider = load(vehicle)
-    speeds = numbers(speed, "--speed") if speed is not None else [design_speed(glider, None)]
-    pitches = numbers(pitch, "--pitch") if pitch is not None else [design_pitch(glider, None)]
+    speeds = numbers(speed, "--speed", SPEEDS, "m/s") if speed is not None else [design_speed(glider, None)]
+    pitches = numbers(pitch, "--pitch", ANGLES, "deg") if pitch is not None else [design_pitch(glider, None)]
     if len(speeds) * len(pitches) > MOST:
         raise NumberError(f"{len(speeds)} speeds by {len(pitches)} pitches; at most {MOST} rows are allowed")
     from stommel.analysis.trim import trim_table

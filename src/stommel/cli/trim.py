@@ -2,11 +2,11 @@
 
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from stommel.cli.design_flight import design_pitch, design_speed
 from stommel.cli.finish import finish
+from stommel.cli.numbers import number_option
 from stommel.cli.options import (
+    ANGLES,
     IgnoreLimitsOption,
     JsonOption,
     PhysicsChoice,
@@ -30,7 +30,7 @@ def trim(
     speed: SpeedOption = None,
     pitch: PitchOption = None,
     glide_path: Annotated[
-        float | None, typer.Option("--glide-path", help="Angle of the path instead of the pitch [deg].")
+        float | None, number_option("--glide-path", *ANGLES, "deg", "Angle of the path instead of the pitch")
     ] = None,
     physics: PhysicsOption = PhysicsChoice.paper,
     ignore_limits: IgnoreLimitsOption = False,

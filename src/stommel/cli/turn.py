@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from stommel.cli.design_flight import design_pitch, design_speed
+from stommel.cli.numbers import number_option
 from stommel.cli.options import (
     IgnoreLimitsOption,
     JsonOption,
@@ -34,10 +35,11 @@ def turn(
     speed: SpeedOption = None,
     pitch: PitchOption = None,
     turn_rate: Annotated[
-        float | None, typer.Option("--turn-rate", help="Turn rate [rad/s]; positive turns to starboard.")
+        float | None, number_option("--turn-rate", -5, 5, "rad/s", "Turn rate; positive turns to starboard")
     ] = None,
     radius: Annotated[
-        float | None, typer.Option("--radius", help="Radius instead of the turn rate [m]; positive turns to starboard.")
+        float | None,
+        number_option("--radius", -1e6, 1e6, "m", "Radius instead; positive turns to starboard"),
     ] = None,
     by: Annotated[
         SteeringChoice | None, typer.Option("--by", help="What steers; the rudder where there is one.")

@@ -14,15 +14,16 @@ from pydantic import Field, model_validator
 
 from stommel.control.flight_table import FlightTable
 from stommel.errors import FileError, Problem
-from stommel.files.fields import Finite, Positive, Table
+from stommel.files.fields import Table
+from stommel.files.ranges import between
 from stommel.files.toml_reader import read_table
 from stommel.files.whole import write_whole
 
 _MOST = 200
 """Longest side of a table."""
 
-Grid = Annotated[tuple[Positive, ...], Field(min_length=2, max_length=_MOST)]
-Cells = Annotated[tuple[tuple[Finite, ...], ...], Field(min_length=2, max_length=_MOST)]
+Grid = Annotated[tuple[Annotated[float, between(0.001, 1e5)], ...], Field(min_length=2, max_length=_MOST)]
+Cells = Annotated[tuple[tuple[Annotated[float, between(-1e6, 1e6)], ...], ...], Field(min_length=2, max_length=_MOST)]
 
 
 @dataclass(frozen=True)
@@ -60,8 +61,8 @@ class _FlightTableFile(Table):
     vehicle_sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
     physics: Literal["paper", "full"]
     stommel: str
-    density_kg_m3: Annotated[float, Field(strict=True, ge=900, le=1200)]
-    drag_per_mass_per_m: Annotated[float, Field(strict=True, gt=0, le=10)]
+    density_kg_m3: Annotated[float, between(900, 1200)]
+    drag_per_mass_per_m: Annotated[float, between(1e-6, 10)]
     pitch_deg: Grid
     ballast_ml: Grid
     dive: _Way

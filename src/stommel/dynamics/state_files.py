@@ -5,19 +5,21 @@ from math import degrees, isfinite, radians
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 
 from stommel.dynamics.acceleration import accelerations, state_of
 from stommel.dynamics.packing import pack, reference_water
 from stommel.dynamics.state import Actuation
 from stommel.errors import FileError, Problem, StommelError
 from stommel.files.opening import TABLE_MIB, read_text
+from stommel.files.ranges import Coordinate, between
 from stommel.files.sentences import dotted, sentence
 from stommel.geometry.attitude import euler_rates, quaternion_from_euler
 from stommel.vehicle import Physics, Vehicle
 
-Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Triple = tuple[Finite, Finite, Finite]
+Velocity = Annotated[float, between(-50, 50)]
+AngularVelocity = Annotated[float, between(-100, 100)]
+Angle = Annotated[float, between(-360, 360)]
 
 
 class StateError(StommelError):
@@ -29,15 +31,15 @@ class StateEntry(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    velocity_m_s: Triple
-    angular_velocity_rad_s: Triple
-    attitude_deg: Triple
-    moving_mass_position_m: Finite
-    moving_mass_rate_m_s: Finite = 0.0
-    moving_mass_force_n: Finite = 0.0
-    ballast_volume_m3: Finite = 0.0
-    rudder_deg: Finite = 0.0
-    roll_mass_deg: Finite = 0.0
+    velocity_m_s: tuple[Velocity, Velocity, Velocity]
+    angular_velocity_rad_s: tuple[AngularVelocity, AngularVelocity, AngularVelocity]
+    attitude_deg: tuple[Angle, Angle, Angle]
+    moving_mass_position_m: Coordinate
+    moving_mass_rate_m_s: Velocity = 0.0
+    moving_mass_force_n: Annotated[float, between(-1e6, 1e6)] = 0.0
+    ballast_volume_m3: Annotated[float, between(-0.1, 0.1)] = 0.0
+    rudder_deg: Angle = 0.0
+    roll_mass_deg: Angle = 0.0
 
     @property
     def lateral(self) -> bool:

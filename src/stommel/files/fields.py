@@ -1,17 +1,18 @@
-"""What the tables of a vehicle file are made of: numbers with ranges, points, tensors, intervals."""
+"""What the tables of a vehicle file are made of: points, tensors, intervals; numbers without a range of their own."""
 
 from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
+from stommel.files.ranges import Coordinate, Inertia
+
 Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[float, Field(strict=True, gt=0, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(strict=True, ge=0, allow_inf_nan=False)]
-NotPositive = Annotated[float, Field(strict=True, le=0, allow_inf_nan=False)]
-Point = tuple[Finite, Finite, Finite]
-Interval = tuple[Finite, Finite]
-Row = tuple[Finite, Finite, Finite]
+Point = tuple[Coordinate, Coordinate, Coordinate]
+Row = tuple[Inertia, Inertia, Inertia]
 Matrix3 = tuple[Row, Row, Row]
+
+Name = Annotated[str, Field(min_length=1, max_length=80)]
+"""Of a part, a bay, a column, a mission; long enough to say what it is, short enough for a message."""
 
 ZERO_MATRIX: Matrix3 = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
@@ -34,7 +35,7 @@ class Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=False, defer_build=True)
 
 
-def ordered(name: str, interval: Interval) -> None:
+def ordered(name: str, interval: tuple[float, float]) -> None:
     """Refuse an interval whose ends are swapped."""
     if not interval[0] < interval[1]:
         raise ValueError(f"{name} = {list(interval)}: the first number must be less than the second")

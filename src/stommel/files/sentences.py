@@ -1,7 +1,7 @@
 """Validates what a file says; errors are sentences that name the key, the value and what is allowed."""
 
 import difflib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
@@ -9,6 +9,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from stommel.errors import FileError, Problem
+from stommel.files.ranges import OUT_OF_RANGE, ZeroOr
 from stommel.files.table_keys import keys_of, models_in
 from stommel.files.units import unit_of
 
@@ -30,6 +31,9 @@ _PLAIN = {
     "list_type": "must be a list",
     "literal_error": "must be {expected}",
     "string_type": "must be text",
+    "string_too_long": "must be text of at most {max_length} characters",
+    "string_too_short": "must not be empty",
+    "string_pattern_mismatch": "must begin with a letter and go on with letters, digits, - and _",
     "too_long": "must be a list of {max_length}",
     "tuple_type": "must be a list",
 }
@@ -58,7 +62,11 @@ def validated(document: Any, model: type[Model], origin: str) -> Model:
 def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[str, str]]:
     """Return (key, sentence) for each of the errors, unknown keys first: they often explain the missing ones."""
     details = sorted(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
-    found = [(dotted(detail["loc"]), sentence(detail, model)) for detail in details[:MOST_PROBLEMS]]
+    found = [
+        (dotted(detail["loc"]), line)
+        for detail in details[:MOST_PROBLEMS]
+        for line in sentence(detail, model).splitlines()
+    ]
     if len(details) > MOST_PROBLEMS:
         found.append(("", f"and {len(details) - MOST_PROBLEMS} more problems"))
     return list({words: (key, words) for key, words in found}.values())  # a short list misses several entries
@@ -78,16 +86,23 @@ def sentence(detail: ErrorDetails, model: type[BaseModel]) -> str:
     if kind == "missing":
         return _missing(detail, model)
     if kind == "value_error":
-        return f"{key + ': ' if key else ''}{detail['ctx']['error']}"
+        prefix = f"{key}: " if key else ""
+        return "\n".join(f"{prefix}{line}" for line in str(detail["ctx"]["error"]).splitlines())
     if kind in _RANGES:
         constraint, words = _RANGES[kind]
         crossed = words.format(detail["ctx"][constraint])
-        return f"{key} = {shown(value)}: must be {allowed_range(detail['loc'], model) or crossed}"
+        return f"{key} = {shown(value)}: must be {_with_unit(allowed_range(detail['loc'], model) or crossed, key)}"
+    if kind == OUT_OF_RANGE:
+        return f"{key} = {shown(value)}: {_with_unit(detail['msg'], key)}"
     if kind in _PLAIN:
         return f"{key} = {shown(value)}: {_PLAIN[kind].format(**detail.get('ctx', {}))}"
     if kind in ("missing_keyword", "model_type", "dict_type", "model_attributes_type"):
         return f"{key} = {shown(value)}: must be a table, [{key}]" if key else f"{shown(value)}: must be a table"
     return f"{key} = {shown(value)}: {detail['msg'][0].lower()}{detail['msg'][1:]}"
+
+
+def _with_unit(words: str, key: str) -> str:
+    return f"{words} {unit_of(key) or ''}".rstrip()
 
 
 def _missing(detail: ErrorDetails, model: type[BaseModel]) -> str:
@@ -140,18 +155,35 @@ def _table_at(location: Sequence[str | int], model: type[BaseModel]) -> type[Bas
 
 def allowed_range(location: Sequence[str | int], model: type[BaseModel]) -> str:
     """The range that the field at `location` allows, in words; empty where it has none."""
-    *parents, name = location
+    *parents, name = [part for part in location if not isinstance(part, int)]
     field = _fields(_table_at(parents, model)).get(str(name))
     if field is None:
         return ""
-    constraints = list(field.metadata)
-    for argument in get_args(field.annotation):
+    constraints = [*field.metadata, *_constraints(field.annotation)]
+    for constraint in constraints:
+        if isinstance(constraint, ZeroOr):
+            return constraint.words()
+    ends = {attribute: _limit(constraints, attribute) for attribute, _ in _RANGES.values()}
+    if ends["ge"] is not None and ends["le"] is not None:
+        return f"between {_plain(ends['ge'])} and {_plain(ends['le'])}"
+    return " and ".join(
+        text.format(_plain(ends[attribute])) for attribute, text in _RANGES.values() if ends[attribute] is not None
+    )
+
+
+def _constraints(annotation: Any) -> Iterator[Any]:
+    """What an annotation says of numbers, however deep in lists and alternatives."""
+    for argument in get_args(annotation):
         for extra in getattr(argument, "__metadata__", ()):
-            constraints += getattr(extra, "metadata", [extra])
-    words = []
-    for attribute, text in _RANGES.values():
-        for constraint in constraints:
-            limit = getattr(constraint, attribute, None)
-            if limit is not None:
-                words.append(text.format(f"{limit:g}"))
-    return " and ".join(dict.fromkeys(words))
+            yield from getattr(extra, "metadata", [extra])
+        yield from _constraints(argument)
+
+
+def _limit(constraints: Sequence[Any], attribute: str) -> float | None:
+    return next((limit for one in constraints if (limit := getattr(one, attribute, None)) is not None), None)
+
+
+def _plain(limit: float | None) -> str:
+    """A limit as a file might write it: 1000000, 0.5, 1e-05."""
+    assert limit is not None
+    return str(limit) if isinstance(limit, int) else f"{limit:.12g}"

@@ -2,7 +2,13 @@
 
 from typing import NamedTuple
 
-from pyproj import Geod
+import numpy as np
+from numpy.typing import NDArray
+from pyproj import Geod, Proj
+
+from stommel.geometry.earth import FLATTENING
+
+Array = NDArray[np.float64]
 
 _WGS84 = Geod(ellps="WGS84")
 
@@ -34,3 +40,39 @@ def travel(latitude_deg: float, longitude_deg: float, bearing_deg: float, distan
     """Place that is reached along the geodesic that starts with a bearing (the direct problem)."""
     longitude, latitude, _ = _WGS84.fwd(longitude_deg, latitude_deg, bearing_deg, distance_m)
     return Place(float(latitude), float(longitude))
+
+
+def distances(latitude_deg: Array, longitude_deg: Array, to_latitude_deg: float, to_longitude_deg: float) -> Array:
+    """Distance of each of many places from one [m]."""
+    return np.hypot(*offsets(latitude_deg, longitude_deg, to_latitude_deg, to_longitude_deg))
+
+
+def offsets(
+    latitude_deg: Array, longitude_deg: Array, from_latitude_deg: float, from_longitude_deg: float
+) -> tuple[Array, Array]:
+    """East and north of many places as seen from one [m]: true distance in the true direction."""
+    one = np.ones_like(latitude_deg)
+    azimuth, _, distance = _WGS84.inv(from_longitude_deg * one, from_latitude_deg * one, longitude_deg, latitude_deg)
+    return distance * np.sin(np.radians(azimuth)), distance * np.cos(np.radians(azimuth))
+
+
+def line_length(latitude_deg: Array, longitude_deg: Array) -> float:
+    """Length of the way through many places [m]."""
+    return float(_WGS84.line_length(longitude_deg, latitude_deg))
+
+
+def beside_line(latitude_deg: Array, longitude_deg: Array, start: Place, end: Place) -> Array:
+    """Distance of many places from the rhumb line from `start` to `end` and beyond, positive to starboard [m].
+
+    The rhumb line (of one bearing) is straight on the Mercator map, which is true to angles and has one scale around
+    each place. Not a number where start and end are the same.
+    """
+    mercator = Proj(proj="merc", ellps="WGS84", lon_0=end.longitude_deg)
+    (x0, y0), (x1, y1) = (mercator(place.longitude_deg, place.latitude_deg) for place in (start, end))
+    x, y = mercator(longitude_deg, latitude_deg)
+    along = np.hypot(x1 - x0, y1 - y0)
+    sine = np.sin(np.radians(latitude_deg))
+    scale = np.sqrt((1.0 - FLATTENING * (2.0 - FLATTENING) * sine**2) / (1.0 - sine**2))
+    if along == 0.0:
+        return np.full_like(scale, np.nan)
+    return np.asarray(((x - x1) * (y1 - y0) - (y - y1) * (x1 - x0)) / along / scale)

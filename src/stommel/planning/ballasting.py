@@ -122,8 +122,8 @@ def pump_flow(deployment: Deployment) -> float:
 
 
 ALLOWED_M, ALLOWED_SHARE, MOST_ALLOWED = 1.0, 0.01, 0.05
-"""Allowed for where a dive turns: metres, and a share of its depth, up to a share of it; the pitch follows later than the
-oil, and sensors err."""
+"""Allowed for where a dive turns: metres and a share of its depth, up to a share of it. The pitch follows later than
+the oil, and sensors err."""
 MOST_OF_DEPTH = 0.5
 """No dive turns above this part of its depth."""
 

@@ -37,6 +37,8 @@ class Flown:
     plant: Plant
     distance_through_water: float
     """Along the path [m]."""
+    waypoints_reached: int
+    """By the software's own account."""
 
 
 def fly_mission(mission: Mission, *, controller: Controller | None = None, progress: Progress | None = None) -> Flown:
@@ -90,4 +92,5 @@ def flown_of(mission: Mission, setup: Setup, outcome: int) -> Flown:
         outcome=OUTCOMES[outcome],
         plant=setup.equipment.plant,
         distance_through_water=float(speeds.sum() * mission.scenario.output_every_s),
+        waypoints_reached=int(setup.memory.waypoint),
     )

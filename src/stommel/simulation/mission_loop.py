@@ -155,7 +155,7 @@ def _outcome(equipment, x, world, commands, t):  # type: ignore[no-untyped-def] 
         return NOT_FINITE
     if x[DEPTH] > equipment.hull.deepest:
         return LOST
-    if world.energy_total + world.heat + battery.self_discharge * t > battery.energy:
+    if world.energy_total + battery.self_discharge * t > battery.energy:
         return OUT_OF_BATTERY
     if commands.ended == COMPLETE:
         return FINISHED

@@ -26,6 +26,7 @@ from stommel.simulation.plant.waves import waves_of
 from stommel.simulation.plant.world import new_world
 from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.scenario_file import ScenarioFile
+from stommel.simulation.stiffness import refuse_stiffness
 from stommel.simulation.timing import Loop, column_step, loop_of
 from stommel.vehicle import PHYSICS
 
@@ -82,6 +83,7 @@ def prepare(mission: Mission) -> Setup:
     sensors = sensors_of(scenario)
     orders = orders_of(mission.deployment, scenario.integration.control_step_s, plant.battery.energy)
     loop = loop_of(mission, vehicle, orders.dives)
+    refuse_stiffness(loop)
     ticks = round(scenario.duration_days * 86400.0 / loop.control_step)
     grid = mission.ocean.grid()
     start = scenario.start

@@ -15,7 +15,7 @@ from stommel.errors import OutputError
 from stommel.files.units import unit_of
 from stommel.files.whole import require_file, write_whole
 from stommel.studies.errors import StudyError
-from stommel.studies.sampling import sweep_values
+from stommel.studies.sampling import draws_of, sweep_values
 from stommel.studies.sensitivity import Sensitivity, sensitivity_of
 from stommel.studies.study import Study
 from stommel.studies.study_file import SWEEP
@@ -79,8 +79,8 @@ def dataset_of(
 ) -> "xr.Dataset":
     """Put runs and sensitivity into one Dataset.
 
-    A sweep has one dimension for each parameter, named by it (and `repeat`); every other study has `run`, with the
-    parameters as coordinates.
+    A sweep has one dimension for each parameter, named by it, and `repeat`, along which others are drawn; every other
+    study has `run`, with the parameters as coordinates.
     """
     import xarray as xr  # noqa: PLC0415 - start-up counts
 
@@ -112,11 +112,19 @@ def _axes(study: Study) -> tuple[tuple[str, ...], tuple[int, ...], dict[str, Any
         }
         count = len(study.values)
         return ("run",), (count,), coords | {"run": ("run", np.arange(count), {"long_name": "run"})}
-    axes = [_column(list(sweep_values(parameter))) for parameter in parameters]
-    coords = {name: (name, axis, words) for name, axis, words in zip(study.names, axes, about, strict=True)}
-    dims, shape = study.names, tuple(len(axis) for axis in axes)
+    coords = {}
+    dims: tuple[str, ...] = ()
+    shape: tuple[int, ...] = ()
+    draws = iter(draws_of(study.file).T)
+    for name, parameter, words in zip(study.names, parameters, about, strict=True):
+        if parameter.drawn:
+            coords[name] = ("repeat", next(draws), words)
+            continue
+        axis = _column(list(sweep_values(parameter)))
+        coords[name] = (name, axis, words)
+        dims, shape = (*dims, name), (*shape, len(axis))
     repeats = study.file.runs or 1
-    if repeats > 1:
+    if repeats > 1 or any(parameter.drawn for parameter in parameters):
         dims, shape = (*dims, "repeat"), (*shape, repeats)
         coords["repeat"] = ("repeat", np.arange(repeats), {"long_name": "repetition with another seed"})
     return dims, shape, coords

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.files.units import counted
+from stommel.studies.combinations import Combination, combinations_of, statistics_of
 from stommel.studies.errors import StudyError, StudyInterruptedError
 from stommel.studies.journal import Journal
 from stommel.studies.result import check_output, check_outputs, dataset_of, outputs_of, sensitivity_in
@@ -19,6 +20,7 @@ from stommel.studies.result import write_result as write
 from stommel.studies.running import cores, fly_here, fly_on_cluster
 from stommel.studies.sensitivity import Sensitivity
 from stommel.studies.study import Study
+from stommel.studies.study_file import SWEEP
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -49,17 +51,14 @@ class Finished:
 
     def statistics(self) -> dict[str, dict[str, float]]:
         """Mean, standard deviation and extremes of every output over the runs that were flown."""
-        found = {}
-        for name, values in self.outputs.items():
-            flown = values[np.isfinite(values)]
-            if len(flown):
-                found[name] = {
-                    "mean": float(flown.mean()),
-                    "standard_deviation": float(flown.std(ddof=1)) if len(flown) > 1 else 0.0,
-                    "least": float(flown.min()),
-                    "greatest": float(flown.max()),
-                }
-        return found
+        found = {name: statistics_of(values) for name, values in self.outputs.items()}
+        return {name: numbers._asdict() for name, numbers in found.items() if numbers is not None}
+
+    def combinations(self) -> list[Combination]:
+        """What each combination of values gave; none where the study is no sweep."""
+        if self.study.file.kind != SWEEP:
+            return []
+        return combinations_of(self.study, self.outputs, [run for run, _ in self.failures])
 
     def as_json(self) -> dict[str, Any]:
         """The study in words, its statistics and sensitivities."""
@@ -73,6 +72,7 @@ class Finished:
             "failed": [{"run": run, "reason": reason} for run, reason in self.failures],
             "parameters": dict(zip(self.study.names, (p.key for p in file.parameters), strict=True)),
             "statistics": self.statistics(),
+            "combinations": [combination.as_row() for combination in self.combinations()],
             "sensitivity_method": None if self.sensitivity is None else self.sensitivity.method,
             "sensitivity": {} if self.sensitivity is None else self.sensitivity.as_row(),
         }

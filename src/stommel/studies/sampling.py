@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stommel.studies.study_file import LATIN_HYPERCUBE, SOBOL, SWEEP, Parameter, StudyFile, Value
+from stommel.studies.study_file import LATIN_HYPERCUBE, MONTE_CARLO, SOBOL, SWEEP, Parameter, StudyFile, Value
 
 Array = NDArray[np.float64]
 
@@ -20,16 +20,30 @@ _SMALLEST = 2.0**-54
 def run_values(file: StudyFile) -> list[tuple[Value, ...]]:
     """Values of the parameters of every run, in the order of the runs.
 
-    A sweep runs through all combinations, the last parameter fastest, each repeated `runs` times. The others map the
+    A sweep runs through all combinations, the last parameter fastest, each repeated `runs` times; what is drawn beside
+    them is the same for all combinations, so that these differ by the values alone. The others map the
     unit cube by the inverse of each parameter's distribution: a Latin hypercube (SciPy), independent draws, or the
     design of Saltelli for Sobol indices (SALib).
     """
     if file.kind == SWEEP:
-        axes = [sweep_values(parameter) for parameter in file.parameters]
-        return [values for values in product(*axes) for _ in range(file.runs or 1)]
+        axes = [sweep_values(parameter) for parameter in file.parameters if not parameter.drawn]
+        return [_merged(file, values, draw) for values in product(*axes) for draw in draws_of(file)]
     unit = unit_samples(file.kind, len(file.parameters), file.runs or 1, file.seed)
     columns = [quantiles(parameter, unit[:, j]) for j, parameter in enumerate(file.parameters)]
     return [tuple(float(value) for value in row) for row in np.column_stack(columns)]
+
+
+def draws_of(file: StudyFile) -> Array:
+    """What is drawn at each combination of a sweep, (runs, drawn parameters); without any, as many empty rows."""
+    drawn = [parameter for parameter in file.parameters if parameter.drawn]
+    unit = unit_samples(MONTE_CARLO, len(drawn), file.runs or 1, file.seed)
+    return np.array([quantiles(parameter, unit[:, j]) for j, parameter in enumerate(drawn)]).reshape(-1, len(unit)).T
+
+
+def _merged(file: StudyFile, values: Sequence[Value], draw: Array) -> tuple[Value, ...]:
+    """Values and draws in the order of the parameters."""
+    given, drawn = iter(values), iter(draw.tolist())
+    return tuple(next(drawn) if parameter.drawn else next(given) for parameter in file.parameters)
 
 
 def unit_samples(kind: str, parameters: int, runs: int, seed: int) -> Array:

@@ -5,9 +5,13 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import ConfigDict, Field, field_validator, model_validator
 
-from stommel.files.fields import Finite, Positive, Table
+from stommel.files.fields import Name, Table
+from stommel.files.ranges import GREATEST_SEED, between
 
 SWEEP, LATIN_HYPERCUBE, MONTE_CARLO, SOBOL = "sweep", "latin_hypercube", "monte_carlo", "sobol"
+
+Quantity = Annotated[float, between(-1e12, 1e12)]
+"""A number that a parameter may take; its own field says what it may be."""
 
 Value = float | str | bool
 """What a parameter may be set to."""
@@ -26,7 +30,7 @@ _OF_DISTRIBUTION = {
 
 
 class Parameter(Table):
-    """One key that the study changes. A sweep gives values, every other kind a distribution."""
+    """One key that the study changes. A sweep gives values, or beside others a distribution; every other kind that."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=False)
 
@@ -36,24 +40,24 @@ class Parameter(Table):
     """Name in the result; the last part of the key if left out."""
     values: tuple[Any, ...] | None = None
     """Numbers, texts or true and false, of a sweep."""
-    from_: Finite | None = Field(None, alias="from")
+    from_: Quantity | None = Field(None, alias="from")
     """First of equally spaced values, or lower end of a uniform distribution."""
-    to: Finite | None = None
+    to: Quantity | None = None
     """Last of equally spaced values, or upper end of a uniform distribution."""
     steps: Annotated[int, Field(strict=True, ge=2, le=MOST_RUNS)] | None = None
     """Count of equally spaced values, both ends among them."""
     distribution: Literal["uniform", "normal", "lognormal"] | None = None
-    mean: Finite | None = None
+    mean: Quantity | None = None
     """Of a normal distribution."""
-    standard_deviation: Positive | None = None
+    standard_deviation: Annotated[float, between(1e-12, 1e12)] | None = None
     """Of a normal distribution."""
-    median: Positive | None = None
+    median: Annotated[float, between(1e-12, 1e12)] | None = None
     """Of a lognormal distribution."""
-    log_standard_deviation: Positive | None = None
+    log_standard_deviation: Annotated[float, between(1e-6, 5)] | None = None
     """Of the natural logarithm, of a lognormal distribution."""
-    at_least: Finite | None = None
+    at_least: Quantity | None = None
     """Cuts a distribution off below."""
-    at_most: Finite | None = None
+    at_most: Quantity | None = None
     """Cuts a distribution off above."""
 
     @field_validator("key")
@@ -68,6 +72,11 @@ class Parameter(Table):
         """Keys of the file that describe values or distribution."""
         names = {info.alias or name: name for name, info in type(self).model_fields.items()}
         return {key for key, name in names.items() if key not in ("key", "name") and getattr(self, name) is not None}
+
+    @property
+    def drawn(self) -> bool:
+        """Whether its values are drawn from a distribution."""
+        return self.distribution is not None
 
     def check_sweep(self) -> None:
         """Refuse what is no list or range of values."""
@@ -123,13 +132,13 @@ class StudyFile(Table):
     """A study, as its file describes it."""
 
     format: Literal[1] = 1
-    name: Annotated[str, Field(min_length=1)]
+    name: Name
     mission: Annotated[str, Field(min_length=1)]
     """Mission file beside the study file, or a shipped mission."""
     kind: Literal["sweep", "latin_hypercube", "monte_carlo", "sobol"]
     runs: Annotated[int, Field(strict=True, ge=1, le=MOST_RUNS)] | None = None
     """Runs; of a sweep, at each combination of values (1 if left out); of a Sobol study, base points."""
-    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    seed: Annotated[int, Field(strict=True, ge=0, le=GREATEST_SEED)] = 0
     """Of the samples and of every run."""
     same_noise: bool = False
     """Every run draws the same sensor noise, so that differences are the parameters' alone."""
@@ -142,10 +151,12 @@ class StudyFile(Table):
         if not self.parameters:
             raise ValueError("parameters is empty; add a table [[parameters]] with the key to change")
         for parameter in self.parameters:
-            if self.kind == SWEEP:
+            if self.kind == SWEEP and not parameter.drawn:
                 parameter.check_sweep()
             else:
                 parameter.check_distribution(self.kind)
+        if self.kind == SWEEP:
+            self._check_draws()
         keys = [parameter.key for parameter in self.parameters]
         for key in keys:
             if keys.count(key) > 1:
@@ -160,6 +171,14 @@ class StudyFile(Table):
             raise ValueError(f"the study has {self.count} runs; at most {MOST_RUNS} are allowed")
         return self
 
+    def _check_draws(self) -> None:
+        """Refuse a sweep whose parameters are all drawn, or whose count of draws is missing."""
+        drawn = [parameter.key for parameter in self.parameters if parameter.drawn]
+        if len(drawn) == len(self.parameters):
+            raise ValueError(f"{drawn[0]}: a sweep needs a parameter with values; use kind = 'monte_carlo' without any")
+        if drawn and self.runs is None:
+            raise ValueError(f"runs is missing; add runs = <count of draws of {drawn[0]} at each combination>")
+
     @property
     def count(self) -> int:
         """Runs in all."""
@@ -168,7 +187,8 @@ class StudyFile(Table):
             return runs * (len(self.parameters) + 2)
         if self.kind == SWEEP:
             for parameter in self.parameters:
-                runs *= len(parameter.values) if parameter.values is not None else parameter.steps or 1
+                if not parameter.drawn:
+                    runs *= len(parameter.values) if parameter.values is not None else parameter.steps or 1
         return runs
 
 

@@ -5,6 +5,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stommel.cli.numbers import number_option
+from stommel.cli.options import PRESSURES, VOLUMES
+
 if TYPE_CHECKING:
     from stommel.bench import EngineLog
 
@@ -20,11 +23,12 @@ ConstantOption = Annotated[
     list[str] | None, typer.Option("--constant", help="QUANTITY=NUMBER:UNIT, for what no column holds.")
 ]
 OfVehicle = Annotated[str, typer.Option("--vehicle", help="Vehicle whose engine was on the bench.")]
-TimeOption = Annotated[float, typer.Option("--time-limit-s", help="Longest time that an inflation may take [s].")]
-InflateOption = Annotated[float, typer.Option("--inflate-ml", help="Volume of that inflation [ml].")]
-LimitPressureOption = Annotated[float, typer.Option("--limit-pressure-mpa", help="Pressure of that inflation [MPa].")]
+TimeOption = Annotated[float, number_option("--time-limit-s", 0.1, 86400, "s", "Longest time of an inflation")]
+InflateOption = Annotated[float, number_option("--inflate-ml", *VOLUMES, "ml", "Volume of that inflation")]
+LimitPressureOption = Annotated[float, number_option("--limit-pressure-mpa", *PRESSURES, "MPa", "Its pressure")]
 MarginOption = Annotated[
-    float, typer.Option("--margin-percent", help="Consumptions this close count as equal: the slowest speed is taken.")
+    float,
+    number_option("--margin-percent", 0, 100, "%", "Consumptions this close are equal; the slowest speed is taken"),
 ]
 
 

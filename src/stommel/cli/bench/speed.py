@@ -9,7 +9,7 @@ from stommel.cli.bench.choice import show_choice
 from stommel.cli.bench.options import InflateOption, LimitPressureOption, MarginOption, TimeOption
 from stommel.cli.finish import finish
 from stommel.cli.numbers import numbers
-from stommel.cli.options import JsonOption, VehicleArgument, load
+from stommel.cli.options import PRESSURES, TURNS, JsonOption, VehicleArgument, load
 
 
 def speed(
@@ -33,8 +33,8 @@ def speed(
     engine = bench_engine(load(vehicle))
     points = model_points(
         engine,
-        [p * 1e6 for p in numbers(pressures, "--pressure-mpa")],
-        [n * 2 * pi / 60 for n in numbers(speeds, "--speed-rpm")],
+        [p * 1e6 for p in numbers(pressures, "--pressure-mpa", PRESSURES, "MPa")],
+        [n * 2 * pi / 60 for n in numbers(speeds, "--speed-rpm", TURNS, "r/min")],
     )
     limit = time_limit_of(longest_s=time_limit, volume_ml=inflate, pressure_mpa=limit_pressure)
     choice = choose_speed(points, limit, engine.piston_area_m2, margin / 100)

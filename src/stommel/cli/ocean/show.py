@@ -5,14 +5,12 @@ from typing import Annotated, Any
 import typer
 
 from stommel.cli.finish import finish
-from stommel.cli.ocean.choice import OceanOptionError, between, bounds, open_ocean, pairs, place
+from stommel.cli.numbers import number_option
+from stommel.cli.ocean.choice import between, bounds, open_ocean, pairs, place
 from stommel.cli.options import JsonOption
 from stommel.cli.output import number, show_values
 from stommel.cli.paths import PlotOption
 from stommel.files.units import counted
-
-_DEEPEST_M = 11300.0
-"""As `stommel.ocean.answers.DEEPEST`, which is not imported at the start."""
 
 
 def show(
@@ -26,7 +24,7 @@ def show(
     time: Annotated[
         str | None, typer.Option("--time", help="ISO 8601 time, UTC; the ocean's first if left out.")
     ] = None,
-    depth: Annotated[float, typer.Option("--depth", help="Depth [m].")] = 0.0,
+    depth: Annotated[float, number_option("--depth", 0, 11300, "m", "Depth")] = 0.0,
     parameter: Annotated[
         list[str] | None,
         typer.Option("--set", metavar="NAME=VALUE", help="Parameter of an analytic ocean or of a profile's."),
@@ -62,8 +60,6 @@ def show(
     from stommel.ocean.times import seconds
 
     where, when = place(at), seconds(time) if time is not None else None
-    if not 0.0 <= depth <= _DEEPEST_M:
-        raise OceanOptionError(f"--depth {depth:g}: must be between 0 and {_DEEPEST_M:g} m")
     choice = {
         "names": pairs(names, "--name"),
         "parameters": pairs(parameter, "--set"),

@@ -15,6 +15,7 @@ from stommel.design.hull import hull_study
 from stommel.design.named_warning import NamedWarning
 from stommel.errors import StommelError
 from stommel.vehicle import Vehicle
+from stommel.vehicle.plausible import implausible
 
 
 def hull_strength(vehicle: Vehicle) -> Iterable[NamedWarning]:
@@ -39,6 +40,11 @@ def masses(vehicle: Vehicle) -> Iterable[NamedWarning]:
     return () if not d.parts or d.hull is None else budget_study(vehicle).warnings
 
 
+def fitting(vehicle: Vehicle) -> Iterable[NamedWarning]:
+    """Numbers that are possible each by itself and do not fit each other."""
+    return (NamedWarning("implausible", sentence) for _, sentence in implausible(vehicle.description))
+
+
 Check = Callable[[Vehicle], Iterable[NamedWarning]]
 
 CHECKS: tuple[Check, ...] = (
@@ -51,6 +57,7 @@ CHECKS: tuple[Check, ...] = (
     drive_speeds,
     voltages,
     lateral_plane,
+    fitting,
 )
 """Every cross-check; a new one is added here. A check of parts that a vehicle lacks finds nothing."""
 

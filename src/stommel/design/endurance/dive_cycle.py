@@ -19,8 +19,8 @@ from stommel.machinery.power.model import EnergyModel
 Array = NDArray[np.float64]
 
 INFLATE, ANTENNA, DEFLATE = "buoyancy engine: inflating at depth", "buoyancy engine: raising the antenna", "valve"
-PITCH, RUDDER = "pitch drive", "rudder drive"
-ACTUATORS = (INFLATE, ANTENNA, DEFLATE, PITCH, RUDDER)
+PITCH, RUDDER, HEAT = "pitch drive", "rudder drive", "battery: heat of its own resistance"
+ACTUATORS = (INFLATE, ANTENNA, DEFLATE, PITCH, RUDDER, HEAT)
 
 
 @dataclass(frozen=True)
@@ -140,6 +140,8 @@ class _Turns:
     pitch_j: Array
     under_water_s: Array
     """In which no depth is won, from surfacing to surfacing over the number of dives."""
+    heat_j: Array
+    """Of the battery's own resistance while the pump runs."""
     antenna_s: Array
     """Until the antenna is out."""
     moving_s: Array
@@ -167,6 +169,7 @@ def dive_cycle(model: EnergyModel, glides: Glides, depth_m: Quantity) -> DiveCyc
             DEFLATE: turns.deflate_j,
             PITCH: turns.pitch_j + corrections_j,
             RUDDER: plan.rudder_turns_per_dive * model.works.rudder.turn(glides.V),
+            HEAT: turns.heat_j,
         },
         consumers_j={},
     )
@@ -191,11 +194,20 @@ def _turns(model: EnergyModel, glides: Glides, depth_m: Quantity) -> _Turns:
         deflate_j=stay * shallow_j + dump_j / n,
         pitch_j=aft_j + forward_j,
         under_water_s=deep + stay * shallow + leaving / n,  # (eq-e3)
+        heat_j=_heat(model, inflate_j, inflate_s) + _heat(model, antenna_j, antenna_s) / n,
         antenna_s=np.maximum(antenna_s, forward_s),
         moving_s=np.maximum(inflate_s, aft_s)
         + stay * np.maximum(shallow_s, forward_s)
         + (np.maximum(antenna_s, forward_s) + dump_s) / n,
     )
+
+
+def _heat(model: EnergyModel, energy: Array, time: Array) -> Array:
+    """Heat of the battery's own resistance while an energy is drawn evenly over a time [J]: R (E / V)2 / t."""
+    battery = model.battery
+    with np.errstate(invalid="ignore", divide="ignore"):
+        heat = battery.internal_resistance_ohm * np.square(energy / battery.voltage_v) / time
+    return np.asarray(np.where(np.asarray(time) > 0.0, heat, 0.0))
 
 
 def _turn_times(

@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Any
 
+import numpy as np
+
 from stommel.analysis import RequestError, SteadyFlight, UnreachableFlightError, trim
 from stommel.analysis.limits import excesses
 from stommel.analysis.stratified import DiveBallast
@@ -135,6 +137,7 @@ class Endurance:
         }
 
 
+@np.errstate(divide="ignore", invalid="ignore")  # what is infinite is refused by name
 def endurance(
     vehicle: Vehicle,
     *,
@@ -284,10 +287,13 @@ def spent(model: EnergyModel, wanted: Wanted, dive: SteadyFlight, climb: SteadyF
         A motor stalls in this dive.
     """
     stored = model.stored
-    stuck = [name for name, energy in cycle.energy_j.items() if not isfinite(energy)]
+    consumers = {consumer.name for consumer in model.consumers}  # they are on for ever because something else is stuck
+    endless = [name for name, energy in cycle.energy_j.items() if not isfinite(energy)]
+    stuck = [name for name in endless if name not in consumers] or endless
     if stuck or not isfinite(cycle.duration_s):
+        why = "no oil comes back out of the bladder" if "valve" in stuck else "the motor stalls"
         raise DriveStallError(
-            f"speed {wanted.speed_m_s:g} m/s at pitch {wanted.pitch_deg:g} deg: the motor stalls "
+            f"speed {wanted.speed_m_s:g} m/s at pitch {wanted.pitch_deg:g} deg: {why} "
             f"({', '.join(stuck) or 'pitch drive'})"
         )
     power = float(cycle.total_j / cycle.duration_s)

@@ -116,7 +116,7 @@ def assumptions(vehicle: Vehicle, result: Endurance) -> Iterator[Assumption]:
     yield Assumption("dive.depth_m", "depth of the dive", wanted.depth_m, "m", chosen)
     yield of("hydrodynamics.drag_kg_m", "drag at zero angle of attack", vehicle.description.hydrodynamics.drag_kg_m)
     yield of("water.temperature_c", "temperature of the water", model.temperature_c)
-    for name in ("capacity_ah", "voltage_v", "usable_fraction", "self_discharge_per_month"):
+    for name in ("capacity_ah", "voltage_v", "usable_fraction", "self_discharge_per_month", "internal_resistance_ohm"):
         if value := getattr(model.battery, name):
             yield of(f"battery.{name}", f"battery: {_words(name)}", value)
     described = model.actuators.described

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from math import hypot
 from typing import Any
 
+import numpy as np
+
 from stommel.design.endurance.best_flights import BestFlights, best_flights
 from stommel.design.endurance.endurance import DAY, Endurance, endurance
 from stommel.design.endurance.sea import Sea
@@ -139,6 +141,7 @@ MODEL_ASSUMPTIONS = (
 """What the model itself assumes, beside its numbers."""
 
 
+@np.errstate(divide="ignore", invalid="ignore")  # what is infinite is refused by name
 def energy_study(
     vehicle: Vehicle,
     *,

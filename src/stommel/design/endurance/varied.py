@@ -40,7 +40,7 @@ class Case:
             coefficients = d.hydrodynamics.model_copy(update={name: value})
             changed = replace(self.vehicle, description=d.model_copy(update={table: coefficients}))
             return replace(self, vehicle=changed, flight=True)
-        moves = table == "works" or (table == "energy" and name != "regulator_efficiency")
+        moves = table in {"works", "battery"} or (table == "energy" and name != "regulator_efficiency")
         return replace(self, model=self.model.changed(key, value), movements=self.movements or moves)
 
     def endurance(self) -> Endurance:

@@ -1,6 +1,6 @@
 """A cycle of the buoyancy engine: inflate, hold, deflate, as the controller runs it."""
 
-from math import ceil, floor, isfinite, pi
+from math import ceil, floor, pi
 
 import numpy as np
 
@@ -28,6 +28,10 @@ from stommel.vehicle.schema import Engine
 PATIENCE_S = 20.0
 LEAST_PROGRESS = 1e-3
 """A phase that moves less than this share of its oil in `PATIENCE_S` is given up: no flow."""
+SHORTEST_HOLD_S, LONGEST_HOLD_S = 1e-3, 86400.0
+GREATEST_PA = 2e8
+"""Beyond any sea."""
+FASTEST_RPM = 50000.0
 SETTLING_S = 1.0
 """Longest time in which the oil comes to rest after a valve has closed."""
 
@@ -58,7 +62,7 @@ def simulate(
     inflate_m3, deflate_m3
         Oil to move [m3]; zero leaves the phase out. Without an inflation the bladder begins full.
     hold_s
-        Pause after the inflation, with everything switched off [s].
+        Pause after the inflation, with everything switched off [s]; less than a millisecond is none.
     motor_speed_rpm
         Speed of the inflating motor instead of the file's [r/min].
     ideal
@@ -87,7 +91,7 @@ def simulate(
     cycle = _Cycle(engine, pressure_pa, full=inflate_m3 == 0.0)
     if inflate_m3 > 0.0:
         cycle.run("inflate", speed, inflate_m3)
-    if hold_s > 0.0:
+    if hold_s >= SHORTEST_HOLD_S:
         cycle.hold(hold_s)
     if deflate_m3 > 0.0 and not cycle.stalled:
         cycle.run("deflate", abs(engine.deflate.motor_speed_rpm), -deflate_m3)
@@ -97,8 +101,10 @@ def simulate(
 def _check(
     engine: Engine, pressure_pa: float, inflate_m3: float, deflate_m3: float, hold_s: float, speed_rpm: float | None
 ) -> None:
-    if not (isfinite(pressure_pa) and pressure_pa >= 0.0):
-        raise EngineRequestError(f"pressure = {pressure_pa / 1e6:g} MPa: must be at least 0 (gauge)")
+    if not 0.0 <= pressure_pa <= GREATEST_PA:
+        raise EngineRequestError(
+            f"pressure = {pressure_pa / 1e6:g} MPa: must be at least 0 (gauge) and at most {GREATEST_PA / 1e6:g}"
+        )
     most = engine.measured_piston.working_volume_ml
     for what, volume in (("inflate", inflate_m3), ("deflate", deflate_m3)):
         if not 0.0 <= volume * 1e6 <= most + 1e-6:
@@ -111,10 +117,12 @@ def _check(
         raise EngineRequestError(
             f"deflate = {deflate_m3 * 1e6:g} ml: the bladder holds only the inflated {inflate_m3 * 1e6:g} ml"
         )
-    if not (isfinite(hold_s) and hold_s >= 0.0):
-        raise EngineRequestError(f"hold = {hold_s:g} s: must be at least 0")
-    if speed_rpm is not None and not (isfinite(speed_rpm) and speed_rpm > 0.0):
-        raise EngineRequestError(f"motor speed = {speed_rpm:g} r/min: must be greater than 0")
+    if not 0.0 <= hold_s <= LONGEST_HOLD_S:
+        raise EngineRequestError(f"hold = {hold_s:g} s: must be at least 0 and at most {LONGEST_HOLD_S:g}")
+    if speed_rpm is not None and not 0.0 < speed_rpm <= FASTEST_RPM:
+        raise EngineRequestError(
+            f"motor speed = {speed_rpm:g} r/min: must be greater than 0 and at most {FASTEST_RPM:g}"
+        )
 
 
 def _pump_ratio(engine: Engine) -> float:

@@ -3,12 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
-from typing import Annotated, Any, Literal
-
-from pydantic import Field
+from typing import Any, Literal
 
 from stommel.errors import StommelError
-from stommel.files.fields import Table
+from stommel.files.fields import Name, Table
 from stommel.files.opening import TOML_MIB, names_file, read_text
 from stommel.files.provenance import separate
 from stommel.files.sentences import validated
@@ -24,7 +22,7 @@ class EngineFile(Table):
     """A file that describes an engine and no vehicle."""
 
     format: Literal[1] = 1
-    name: Annotated[str, Field(min_length=1)]
+    name: Name
     summary: str = ""
     notes: tuple[str, ...] = ()
     engine: Engine

@@ -5,6 +5,7 @@ backward differentiation formulas as the stiffness of oil and valves asks for. A
 looked at together, and the first fall through zero is located on the integrator's own interpolant.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -33,7 +34,14 @@ Array = NDArray[np.float64]
 
 RTOL = 1e-6
 LONGEST_STEP_S = 2.0
-_MOST_SEGMENTS = 4000
+_MANY_EVENTS = 300
+_MOST_STEPS = 80_000
+"""Of the integrator in one simulation, some five seconds: a day's hold takes half of them, a cycle of ordinary parts a
+few hundred."""
+_BEGINNING = 10
+"""Steps that a new segment counts for itself."""
+_RADAU_STEP = 20
+"""Steps of LSODA that take as long as one of Radau."""
 
 
 class SimulationError(StommelError):
@@ -65,6 +73,7 @@ class Stepper:
         self._g = np.empty(network.events)
         self._atol = _tolerances(network)
         self.segments: list[Segment] = []
+        self._steps = 0
 
     def evaluate(self, y: Array) -> None:
         """Fill rates, observations and event functions."""
@@ -80,19 +89,16 @@ class Stepper:
         Raises
         ------
         SimulationError
-            The integrator failed, or there are far too many events.
+            The integrator failed, or there are far too many steps or events.
         """
-        if len(self.segments) >= _MOST_SEGMENTS:
-            raise SimulationError(
-                f"engine: more than {_MOST_SEGMENTS} events up to {self.t:.3f} s: a valve flutters, or a piston sticks "
-                "and slips because its Stribeck friction falls faster with speed than its viscous friction grows"
-            )
         from scipy.integrate import LSODA, Radau  # noqa: PLC0415 - slow to import, and missions seldom need it
 
         solver = self._solver(LSODA, until)
         times, states, event = [self.t], [self.y], None
+        self._steps += _BEGINNING
         before = self._event_values(self.y)
         while solver.status == "running" and event is None:
+            self._count(solver, isinstance(solver, Radau))
             failure = solver.step()
             if failure is not None or not np.isfinite(solver.y).all():
                 # LSODA can lose its step where nothing changes any more; Radau's takes over from the last good state
@@ -114,6 +120,40 @@ class Stepper:
         self.segments.append(Segment(np.array(times), rows, self.observations(rows), event))
         self.t, self.y = times[-1], rows[-1].copy()
         return event
+
+    def _count(self, solver: "LSODA | Radau", slow: bool) -> None:
+        """Refuse to go on without end: name what flutters, or the part whose quick answers keep the steps small."""
+        self._steps += _RADAU_STEP if slow else 1
+        if self._steps <= _MOST_STEPS:
+            return
+        t, y = float(solver.t), solver.y
+        done = f"engine: after {_MOST_STEPS} steps of the integrator it has come to {t:.3g} s"
+        if len(self.segments) > _MANY_EVENTS:
+            raise SimulationError(
+                f"{done} and {len(self.segments)} events: a valve flutters, or a piston sticks and slips because its "
+                "Stribeck friction falls faster with speed than its viscous friction grows"
+            )
+        rate, part = max(self._relaxations(y))
+        raise SimulationError(f"{done}: too stiff. Fastest is {part}, with a time constant of {1.0 / rate:.2g} s")
+
+    def _relaxations(self, y: Array) -> Iterator[tuple[float, str]]:
+        """How fast each state returns when it is displaced [1/s], and in words what it is and what makes it so."""
+        net = self.network
+        parts = {0: "the motor (rotor_inertia_g_cm2, ramp_s)"}
+        parts |= {
+            1 + n: f"the oil at {name!r} (resistances there, oil.node_volume_ml, oil.bulk_modulus_mpa)"
+            for n, name in enumerate(net.node_names)
+        }
+        parts |= {
+            net.first_velocity + i: f"the piston {name!r} (friction over its mass)"
+            for i, name in enumerate(net.piston_names)
+        }
+        before = self._rates(0.0, y)
+        for k, part in parts.items():
+            aside = y.copy()
+            aside[k] += 1e3 * self._atol[k]
+            slope = (self._rates(0.0, aside)[k] - before[k]) / (1e3 * self._atol[k])
+            yield abs(float(slope)), part
 
     def _solver(self, method: "type[LSODA | Radau]", until: float) -> "LSODA | Radau":
         """Integrator from the present time and state."""

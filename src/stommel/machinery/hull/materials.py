@@ -10,9 +10,10 @@ from typing import Annotated, Any, Self
 from pydantic import Field, model_validator
 
 from stommel.errors import FileError, Problem, StommelError
-from stommel.files.fields import Finite, Positive, Table
+from stommel.files.fields import Table
 from stommel.files.opening import TOML_MIB, read_text
 from stommel.files.provenance import separate
+from stommel.files.ranges import Stress, ThermalExpansion, between
 from stommel.files.sentences import MOST_PROBLEMS, dotted, validated
 from stommel.files.toml_reader import parse_toml
 from stommel.vehicle import Provenance
@@ -30,14 +31,14 @@ class Properties(Table):
 
     title: str
     aliases: tuple[str, ...] = ()
-    elastic_modulus_mpa: Positive
-    poisson_ratio: Annotated[float, Field(strict=True, gt=0, lt=0.5)]
-    density_kg_m3: Positive
-    yield_stress_mpa: Positive | None = None
-    tensile_stress_mpa: Positive | None = None
-    failure_stress_mpa: Positive | None = None
-    permissible_stress_mpa: Positive | None = None
-    thermal_expansion_per_k: Finite
+    elastic_modulus_mpa: Annotated[float, between(10, 1.5e6)]
+    poisson_ratio: Annotated[float, between(0.01, 0.49)]
+    density_kg_m3: Annotated[float, between(100, 23000)]
+    yield_stress_mpa: Stress | None = None
+    tensile_stress_mpa: Stress | None = None
+    failure_stress_mpa: Stress | None = None
+    permissible_stress_mpa: Stress | None = None
+    thermal_expansion_per_k: ThermalExpansion
     corrosion_grade: Grade
     corrosion: str
     machinability_grade: Grade

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from stommel.files.sentences import shown
 from stommel.ocean.analytic.east_china_sea import EastChinaSea
 from stommel.ocean.analytic.everywhere import (
     Pool,
@@ -41,7 +42,7 @@ def build_analytic(name: str, parameters: Mapping[str, Any]) -> tuple[OceanGrid,
         The name or a parameter is unknown, or a value is not allowed.
     """
     if name not in ANALYTIC:
-        raise UnknownOceanError(f"ocean {name!r}: unknown analytic ocean; there are: {', '.join(ANALYTIC)}")
+        raise UnknownOceanError(f"ocean {shown(name)}: unknown analytic ocean; there are: {', '.join(ANALYTIC)}")
     ocean = made(ANALYTIC[name], f"ocean {name!r}", parameters)
     grid: OceanGrid = ocean.grid()
     return grid, dict(ocean.notes())

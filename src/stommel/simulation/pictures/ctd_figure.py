@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from stommel.figures.style import MUTED, new_figure, styled
-from stommel.simulation.pictures.extracts import Array, date, fitting_unit, mean_in_cells, seconds, values
+from stommel.simulation.pictures.extracts import Array, date, days, mean_in_cells, seconds, utc_axis, values
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,7 +32,6 @@ def ctd_figure(dataset: xr.Dataset) -> "Figure":
         figure.text(0.5, 0.5, "No samples of the CTD in this mission", ha="center", color=MUTED)
         return figure
     time, pressure = seconds(dataset, "sample_time", dataset["time"].values[0]), values(dataset, "sample_pressure")
-    unit, length = fitting_unit(float(seconds(dataset)[-1]))
     figure = new_figure(9.4, 6.6)
     figure.suptitle(f"{dataset.attrs['title']}: samples of the CTD, from {date(dataset)}", fontsize=9.5, x=0.012,
                     ha="left")  # fmt: skip
@@ -41,14 +40,14 @@ def ctd_figure(dataset: xr.Dataset) -> "Figure":
         ("sample_practical_salinity", "Practical salinity", "viridis", 0.005),
     )
     for axes, (name, title, colours, least_span) in zip(figure.subplots(2, 1, sharex=True), panels, strict=True):
-        drawn = _section(axes, time / length, pressure, values(dataset, name), colours, least_span)
+        drawn = _section(axes, days(dataset, time), pressure, values(dataset, name), colours, least_span)
         axes.set_ylim(1.03 * max(float(pressure.max()), 1e-3), 0.0)
         axes.set_ylabel("Sea pressure [dbar]")
         axes.grid(visible=False)
         bar = figure.colorbar(drawn, ax=axes, label=title, pad=0.01, extend="both")
         bar.formatter.set_useOffset(False)  # type: ignore[attr-defined]  # a ScalarFormatter where colours are linear
-    axes.set_xlim(0.0, float(seconds(dataset)[-1]) / length)
-    axes.set_xlabel(f"Time [{unit}]")
+    axes.set_xlim(*days(dataset, seconds(dataset)[[0, -1]]))
+    utc_axis(axes, dataset)
     return figure
 
 

@@ -1,12 +1,16 @@
-"""Parts of a mission's Dataset that pictures need: time in fitting units, the first dives, thinned curves."""
+"""Parts of a mission's Dataset that pictures need: times, the first dives, means in cells, bands instead of stripes."""
 
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from stommel.control.dive_cycle import PHASES
+from stommel.simulation.results.events import dives_begun
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Array = NDArray[np.float64]
 
@@ -37,13 +41,17 @@ def date(dataset: xr.Dataset) -> str:
 
 def _begins(dataset: xr.Dataset) -> NDArray[np.datetime64]:
     """Times at which dives begin."""
-    begins: NDArray[np.datetime64] = dataset["event_time"].values[
-        dataset["event_phase"].values == PHASES.index("descent")
-    ]
+    begun = dives_begun(dataset["event_phase"].values, dataset["event_reason"].values)
+    begins: NDArray[np.datetime64] = dataset["event_time"].values[begun]
     return begins
 
 
-def dives_begun(dataset: xr.Dataset) -> int:
+def dive_times(dataset: xr.Dataset) -> Array:
+    """Times after the first row at which dives begin [s]."""
+    return np.asarray((_begins(dataset) - dataset["time"].values[0]) / np.timedelta64(1, "ns"), dtype=float) / 1e9
+
+
+def dives_in(dataset: xr.Dataset) -> int:
     """How many dives there are."""
     return len(_begins(dataset))
 
@@ -95,15 +103,43 @@ def mean_in_cells(time: Array, depth: Array, curve: Array, deepest: float, colum
         return edges, levels, np.where(count > 0, total / count, np.nan).reshape(_LEVELS, columns)
 
 
-def thinned(time: Array, curve: Array, most: int) -> tuple[Array, Array]:
-    """At most `most` points of a curve: the least and the greatest of each stretch, so that no peak is lost."""
-    if len(time) <= most:
-        return time, curve
-    edges = np.linspace(0, len(time), most // 2 + 1).astype(int)
-    kept = [0, len(time) - 1]
-    for low, high in pairwise(edges):
-        part = curve[low:high]
-        if np.isfinite(part).any():
-            kept += [low + int(np.nanargmin(part)), low + int(np.nanargmax(part))]
-    chosen = np.unique(kept)
-    return time[chosen], curve[chosen]
+READABLE_DIVES = 60
+"""More dives side by side are stripes; then a curve is drawn as the band between its least and its greatest values."""
+_BANDS = 150
+"""Pieces of a band at most."""
+
+
+def band(time: Array, curve: Array, dives: int) -> tuple[Array, Array, Array]:
+    """Middle of each piece of time, and the least and greatest value of a curve in it.
+
+    Pieces hold about two dives, so that each has seen a whole one and the band is as smooth as the mission.
+    """
+    pieces = int(np.clip(dives // 2, 1, _BANDS))
+    edges = np.unique(np.linspace(0, len(time), pieces + 1).astype(int))
+    low = np.array([np.nanmin(curve[i:j]) for i, j in pairwise(edges)])
+    high = np.array([np.nanmax(curve[i:j]) for i, j in pairwise(edges)])
+    middle = np.array([0.5 * (time[i] + time[j - 1]) for i, j in pairwise(edges)])
+    return middle, low, high
+
+
+def days(dataset: xr.Dataset, after: Array) -> Array:
+    """Times after the first row [s] as days since 1970-01-01 UTC, in which matplotlib counts dates."""
+    return np.asarray(dataset["time"].values[0].astype("datetime64[ns]").astype(float) / 8.64e13 + after / 86400.0)
+
+
+def utc_axis(axes: "Axes", dataset: xr.Dataset) -> None:
+    """Label an axis of time by dates and hours in UTC, and the whole of it by its two ends."""
+    from matplotlib.dates import AutoDateLocator, ConciseDateFormatter  # noqa: PLC0415 - start-up counts
+
+    locator = AutoDateLocator(minticks=4, maxticks=9)  # type: ignore[no-untyped-call]
+    axes.xaxis.set_major_locator(locator)
+    axes.xaxis.set_major_formatter(
+        ConciseDateFormatter(  # type: ignore[no-untyped-call]
+            locator,
+            formats=["%Y", "%b %Y", "%d %b", "%H:%M", "%H:%M", "%H:%M:%S"],
+            zero_formats=["", "%b %Y", "%d %b", "%d %b", "%H:%M", "%H:%M"],
+            show_offset=False,
+        )
+    )
+    first, last = (str(np.datetime_as_string(dataset["time"].values[k], unit="m")).replace("T", " ") for k in (0, -1))
+    axes.set_xlabel(f"UTC, {first} to {last}")

@@ -10,7 +10,7 @@ from stommel.machinery.hull.floating import HullForm
 
 Array = NDArray[np.float64]
 
-PUMP, PITCH_DRIVE, STEERING, CONTROLLER, SENSORS, NAVIGATION, COMMUNICATION, HOTEL = range(8)
+PUMP, PITCH_DRIVE, STEERING, CONTROLLER, SENSORS, NAVIGATION, COMMUNICATION, HOTEL, BATTERY = range(9)
 CONSUMERS = (
     "pump",
     "pitch_drive",
@@ -20,8 +20,9 @@ CONSUMERS = (
     "navigation",
     "communication",
     "hotel",
+    "battery",
 )
-"""Who uses energy, in the order of every array of energies."""
+"""Who uses energy, in the order of every array of energies; the battery that which it turns into heat itself."""
 
 ALWAYS, UNDERWATER, DIVE, CLIMB, SURFACED, MOVING, DRIFTING, SAMPLING = range(8)
 CONDITIONS = ("always", "underwater", "dive", "climb", "surface", "moving", "drift", "sampling")

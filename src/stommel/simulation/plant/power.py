@@ -9,6 +9,7 @@ from stommel.control.commands import LOAD_CLIMB, LOAD_DIVE, LOAD_DRIFT, LOAD_SUR
 from stommel.geometry.interpolation import interpolated
 from stommel.simulation.plant.parameters import (
     ALWAYS,
+    BATTERY,
     CLIMB,
     DIVE,
     DRIFTING,
@@ -34,10 +35,10 @@ def consume(plant: Plant, world: np.record, commands: Commands, t: float, step: 
     for i in range(len(world.energy)):
         world.energy[i] += _power(plant.loads, i, commands, moving) * step
         total += world.energy[i]
-    used = total + world.heat + plant.battery.self_discharge * t
-    load(plant.battery, world, (total - world.energy_total) / step, used)
-    world.heat += plant.battery.resistance * world.current * world.current * step
-    world.energy_total = total
+    load(plant.battery, world, (total - world.energy_total) / step, total + plant.battery.self_discharge * t)
+    heat = plant.battery.resistance * world.current * world.current * step
+    world.energy[BATTERY] += heat
+    world.energy_total = total + heat
 
 
 @inlined

@@ -14,7 +14,7 @@ WORLD = np.dtype(
         ("steering", "f8"), ("pumping", "i8"), ("valve_open", "i8"), ("mass_moving", "i8"), ("steering_moving", "i8"),
         ("V_b_wanted", "f8"), ("moved_at", "f8"),
         # battery and loads
-        ("energy", "f8", (len(CONSUMERS),)), ("energy_total", "f8"), ("heat", "f8"),
+        ("energy", "f8", (len(CONSUMERS),)), ("energy_total", "f8"),
         ("voltage", "f8"), ("current", "f8"),
         ("calling", "i8"), ("called_at", "f8"),
         # inside the hull

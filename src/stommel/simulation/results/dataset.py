@@ -11,6 +11,10 @@ from stommel.files.whole import whole_file
 from stommel.simulation.flight import Flown
 from stommel.simulation.results import variables
 from stommel.simulation.results.ctd import samples_of
+from stommel.simulation.results.energy import energy_of
+from stommel.simulation.results.events import Events, events_of
+from stommel.simulation.results.verdict import verdict
+from stommel.simulation.results.waypoints import Waypoints, waypoints_of
 from stommel.version import __version__
 
 if TYPE_CHECKING:
@@ -32,21 +36,22 @@ _EXACT = (
 def dataset_of(flown: Flown) -> "xr.Dataset":
     """Describe a flown mission as a trajectory after CF 1.10.
 
-    Dimensions are `time`, `sample` (of the CTD), `surfacing` (each stay at the surface that ended with a dive) and
-    `event` (each change of phase). Global attributes hold what the mission can be flown again from: its file and the
-    vehicle's numbers as JSON, the seed and the version.
+    Dimensions are `time`, `sample` (of the CTD), `surfacing` (each stay at the surface that ended with a dive),
+    `waypoint` and `event` (each change of phase, and what happened at waypoints). Global attributes hold what the
+    mission can be flown again from: its file and the vehicle's numbers as JSON, the seed and the version.
     """
     import xarray as xr  # noqa: PLC0415 - start-up counts
 
-    start = flown.mission.scenario.start_seconds
+    start, waypoints = flown.mission.scenario.start_seconds, waypoints_of(flown)
     return xr.Dataset(
-        _record(flown.record)
+        _record(flown, waypoints)
         | _samples(flown)
         | _surfacings(flown.surfacings, start)
-        | _events(flown.events, start)
+        | _waypoints(waypoints)
+        | _events(events_of(flown, waypoints), start)
         | _trajectory(),
         coords={"time": ("time", _times(flown.record["time"], start), variables.TIME)},
-        attrs=_provenance(flown),
+        attrs=_provenance(flown, waypoints),
     )
 
 
@@ -55,7 +60,8 @@ def _times(seconds: Array, start: float) -> NDArray[np.datetime64]:
     return np.round((start + seconds) * 1e9).astype("int64").astype("datetime64[ns]")
 
 
-def _record(record: Rows) -> dict[str, Any]:
+def _record(flown: Flown, waypoints: Waypoints) -> dict[str, Any]:
+    record = flown.record
     found: dict[str, Any] = {}
     for name, attributes in variables.PLACES.items():
         found[name] = ("time", np.degrees(record[name]), attributes)
@@ -67,8 +73,10 @@ def _record(record: Rows) -> dict[str, Any]:
         found[name] = ("time", np.mod(found[name][1], np.float32(360.0)), found[name][2])
     bottom = found["bottom_depth"][1]
     bottom[bottom > _UNBOUNDED] = np.nan
-    for consumer, (name, attributes) in enumerate(variables.ENERGY.items()):
-        found[name] = ("time", record["energy"][:, consumer].copy(), attributes)
+    for curve, (name, attributes) in zip(energy_of(flown).values(), variables.ENERGY.items(), strict=True):
+        found[name] = ("time", curve, dict(attributes))
+    found["waypoint_sought"] = ("time", (waypoints.sought + 1).astype(np.int16), dict(variables.SOUGHT))
+    found["distance_to_waypoint"] = ("time", waypoints.distance_m.astype(np.float32), dict(variables.TO_WAYPOINT))
     found["phase"] = ("time", record["phase"].astype(np.int8), _flags(variables.PHASE))
     for name, (_, _, attributes) in found.items():
         if name not in ("latitude", "longitude", "depth"):
@@ -96,7 +104,34 @@ def _surfacings(rows: Rows, start: float) -> dict[str, Any]:
     return found
 
 
-def _events(rows: Rows, start: float) -> dict[str, Any]:
+def _waypoints(waypoints: Waypoints) -> dict[str, Any]:
+    """What became of the waypoints, and how the legs to them were flown."""
+    nan = float("nan")
+    reached = [waypoint.reached_s for waypoint in waypoints.all]
+    columns: dict[str, list[float]] = {name: [] for name in variables.WAYPOINTS}
+    for waypoint in waypoints.all:
+        leg = waypoint.flown
+        ways = (nan,) * 6 if leg is None else (leg.length_m, leg.time_s, leg.over_ground_m, leg.made_good_m,
+                                               leg.beside_line_rms_m, leg.beside_line_greatest_m)  # fmt: skip
+        told = (nan if value is None else value for value in (waypoint.reached_s, waypoint.closest_m))
+        for column, value in zip(columns.values(), (*told, waypoint.to_go_m, *ways), strict=True):
+            column.append(value)
+    found: dict[str, Any] = {
+        "acceptance_radius": ((), waypoints.radius_m, variables.ACCEPTANCE_RADIUS),
+        "waypoint_reached": (
+            "waypoint", np.array([when is not None for when in reached], np.int8), _flags(variables.WAYPOINT_REACHED)
+        ),
+    }  # fmt: skip
+    for name, place in zip(variables.PLACES, ("latitude_deg", "longitude_deg"), strict=True):
+        values = np.array([getattr(waypoint.place, place) for waypoint in waypoints.all], float)
+        found[f"waypoint_{name}"] = ("waypoint", values, dict(variables.PLACES[name]))
+    for name, attributes in variables.WAYPOINTS.items():
+        found[name] = ("waypoint", np.array(columns[name], float), dict(attributes))
+    return found
+
+
+def _events(events: Events, start: float) -> dict[str, Any]:
+    rows = events.rows
     found = _located("event", rows, start)
     depth = dict(variables.RECORD["depth"][2])
     del depth["axis"]
@@ -104,6 +139,7 @@ def _events(rows: Rows, start: float) -> dict[str, Any]:
     for name, attributes in (("phase", variables.PHASE), ("reason", variables.REASON)):
         values = rows[name].astype(np.int8)
         found[f"event_{name}"] = ("event", values, _flags(attributes))
+    found["event_waypoint"] = ("event", events.waypoint.astype(np.int16), variables.EVENT_WAYPOINT)
     return found
 
 
@@ -124,7 +160,7 @@ def _trajectory() -> dict[str, Any]:
     return {"trajectory": ((), "mission", {"cf_role": "trajectory_id", "long_name": "name of the trajectory"})}
 
 
-def _provenance(flown: Flown) -> dict[str, Any]:
+def _provenance(flown: Flown, waypoints: Waypoints) -> dict[str, Any]:
     mission, plan = flown.mission, flown.mission.scenario
     stored = flown.plant.battery.energy
     return {
@@ -134,6 +170,7 @@ def _provenance(flown: Flown) -> dict[str, Any]:
         "summary": f"Simulated mission of {mission.vehicle.name} in {mission.ocean.name}",
         "source": f"stommel {__version__}: eight degrees of freedom, actuators, sensors and control",
         "outcome": flown.outcome,
+        "verdict": verdict(waypoints, plan.start_seconds, flown.outcome),
         "seed": str(plan.seed),
         "stommel_version": __version__,
         "mission_file": mission.origin,

@@ -3,8 +3,8 @@
 from typing import Any
 
 from stommel.control.dive_cycle import PHASES
-from stommel.simulation.log import REASONS
-from stommel.simulation.plant.parameters import CONSUMERS
+from stommel.simulation.results.energy import DRAINS
+from stommel.simulation.results.events import NAMES
 
 Attributes = dict[str, Any]
 
@@ -110,7 +110,7 @@ ENERGY: dict[str, Attributes] = {
         "long_name": f"energy from the battery since the start: {consumer.replace('_', ' ')}",
         "units": "J",
     }
-    for consumer in CONSUMERS
+    for consumer in DRAINS
 }
 
 SAMPLES: dict[str, Attributes] = {
@@ -144,9 +144,9 @@ PHASE: Attributes = {
 }
 
 REASON: Attributes = {
-    "long_name": "why the dive or the mission ended",
-    "flag_values": list(range(len(REASONS))),
-    "flag_meanings": " ".join(event.replace(":", "").replace("'", "").replace(" ", "_") for event in REASONS),
+    "long_name": "why the dive or the mission ended, or what happened",
+    "flag_values": list(range(len(NAMES))),
+    "flag_meanings": " ".join(event.replace(":", "").replace("'", "").replace(" ", "_") for event in NAMES),
 }
 
 SURFACINGS: dict[str, tuple[str, Attributes]] = {
@@ -184,3 +184,40 @@ SURFACINGS: dict[str, tuple[str, Attributes]] = {
     "dive_number": ("dive", {"long_name": "number of the dive that ended here", "units": "1"}),
 }
 """Variable: its column in the list of surfacings, its attributes."""
+
+EVENT_WAYPOINT: Attributes = {"long_name": "number of the waypoint that it is about, 0 for none", "units": "1"}
+
+SOUGHT: Attributes = {"long_name": "number of the waypoint that is sought, 0 for none", "units": "1"}
+TO_WAYPOINT: Attributes = {"long_name": "true distance to the waypoint that is sought", "units": "m"}
+
+ACCEPTANCE_RADIUS: Attributes = {"long_name": "distance within which a waypoint counts as reached", "units": "m"}
+
+WAYPOINT_REACHED: Attributes = {
+    "long_name": "whether the waypoint was reached, by the vehicle's own account",
+    "flag_values": [0, 1],
+    "flag_meanings": "not_reached reached",
+}
+WAYPOINTS: dict[str, Attributes] = {
+    "waypoint_reached_after": {
+        "long_name": "time from the start until the waypoint was reached, by the vehicle's own account",
+        "units": "s",
+    },
+    "waypoint_closest_approach": {
+        "long_name": "nearest that the vehicle truly came while it sought the waypoint",
+        "units": "m",
+    },
+    "waypoint_distance": {
+        "long_name": "true distance from the waypoint when it was reached, or at the end of the mission",
+        "units": "m",
+    },
+    "leg_length": {"long_name": "length of the leg to the waypoint, from the one before or the start", "units": "m"},
+    "leg_time": {"long_name": "time for which the waypoint was sought", "units": "s"},
+    "leg_over_ground": {"long_name": "way over ground while the waypoint was sought", "units": "m"},
+    "leg_made_good": {"long_name": "by how much the waypoint came nearer", "units": "m"},
+    "leg_beside_line_rms": {
+        "long_name": "root mean square distance from the rhumb line of the leg",
+        "units": "m",
+    },
+    "leg_beside_line_greatest": {"long_name": "greatest distance from the rhumb line of the leg", "units": "m"},
+}
+"""One of each a waypoint; not a number where it was never reached or sought."""

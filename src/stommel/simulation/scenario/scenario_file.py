@@ -5,7 +5,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Finite, Positive
+from stommel.files.fields import Finite
+from stommel.files.ranges import GREATEST_SEED, between
 from stommel.mission.plan import Plan, Position
 from stommel.simulation.scenario.world_tables import (
     Ballasting,
@@ -18,6 +19,10 @@ from stommel.simulation.scenario.world_tables import (
     Waves,
 )
 
+MOST_CONTROL_STEPS = 1e8
+"""Of a mission: three years of seconds."""
+MOST_ROWS = 1e7
+"""Of output, and of samples of the CTD: they are kept in memory."""
 LONGEST_LATENCY = 16
 """Control steps by which a measurement may reach the software late, and one."""
 
@@ -32,13 +37,13 @@ class ScenarioFile(Plan):
     physics: Literal["paper", "full"] = "full"
     start_time: datetime
     """With its time zone."""
-    duration_days: Annotated[float, Field(strict=True, gt=0, le=730)]
+    duration_days: Annotated[float, between(0.0005, 730)]
     """The mission ends here at the latest."""
-    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    seed: Annotated[int, Field(strict=True, ge=0, le=GREATEST_SEED)] = 0
     """Of every random draw."""
-    output_every_s: Positive = 10.0
+    output_every_s: Annotated[float, between(0.05, 86400)] = 10.0
     start: Position
-    heading_deg: Finite = 0.0
+    heading_deg: Annotated[float, between(-360, 360)] = 0.0
     """At the start."""
     ballasting: Ballasting = Ballasting()
     sensors: Sensing = Sensing()
@@ -81,6 +86,17 @@ class ScenarioFile(Plan):
             steps = value / step
             if abs(steps - round(steps)) > 1e-9 or steps < 1:
                 raise ValueError(f"{key} = {value:g}: must be a multiple of integration.control_step_s = {step:g}")
+        for key, every, most in (
+            ("integration.control_step_s", step, MOST_CONTROL_STEPS),
+            ("output_every_s", self.output_every_s, MOST_ROWS),
+            ("sampling.every_s", self.sampling.every_s, MOST_ROWS),
+        ):
+            count = self.duration_days * 86400.0 / every
+            if count > most:
+                raise ValueError(
+                    f"{key} = {every:g}: makes {count:.3g} steps of duration_days = {self.duration_days:g}; at most "
+                    f"{most:g} are flown"
+                )
         longest = (LONGEST_LATENCY - 1) * step
         for key in ("attitude_latency_s", "pressure_latency_s"):
             late = getattr(self.sensors, key)

@@ -4,16 +4,21 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Finite, NotNegative, Positive, Table
+from stommel.files.fields import Finite, Name, Point, Table
+from stommel.files.ranges import DepthOrZero, Seconds, Share, between
 
-Share = Annotated[float, Field(strict=True, ge=0, le=1)]
-Triple = tuple[Finite, Finite, Finite]
+FieldPart = Annotated[float, between(-5, 5)]
+Triple = tuple[FieldPart, FieldPart, FieldPart]
+AngleNoise = Annotated[float, between(0, 90)]
+DepthNoise = Annotated[float, between(0, 100)]
+Lag = Annotated[float, between(0, 600)]
+Degrees = Annotated[float, between(-720, 720)]
 
 
 class Ballasting(Table):
     """How the vehicle was trimmed before the mission."""
 
-    neutral_depth_m: NotNegative | None = None
+    neutral_depth_m: DepthOrZero | None = None
     """Depth at the start at which it is neutral with no ballast volume; if left out, it is neutral
     in the middle of the densities it meets."""
 
@@ -21,31 +26,31 @@ class Ballasting(Table):
 class Sensing(Table):
     """Errors of the sensors."""
 
-    attitude_noise_deg: NotNegative = 0.2
+    attitude_noise_deg: AngleNoise = 0.2
     """Of the direction down, by the accelerometers, standard deviation on each axis."""
-    heading_noise_deg: NotNegative = 0.3
+    heading_noise_deg: AngleNoise = 0.3
     """Standard deviation; 0.3 deg is the accuracy of the compass in section 5.2 of the paper."""
-    pressure_noise_m: NotNegative = 0.05
+    pressure_noise_m: DepthNoise = 0.05
     """Standard deviation, as depth."""
-    pressure_bias_m: Finite = 0.0
+    pressure_bias_m: Annotated[float, between(-1000, 1000)] = 0.0
     """As depth."""
-    gps_noise_m: NotNegative = 3.0
+    gps_noise_m: Annotated[float, between(0, 10000)] = 3.0
     """Standard deviation of a position, each of north and east."""
-    first_fix_s: Positive = 40.0
+    first_fix_s: Annotated[float, between(0.1, 3600)] = 40.0
     """Time from surfacing to the first position."""
-    attitude_latency_s: NotNegative = 0.0
+    attitude_latency_s: Lag = 0.0
     """Time until pitch, roll and heading reach the software."""
-    pressure_latency_s: NotNegative = 0.0
+    pressure_latency_s: Lag = 0.0
     """The same of depth."""
-    altimeter_noise_m: NotNegative = 0.1
+    altimeter_noise_m: DepthNoise = 0.1
     """Standard deviation of the height above the bottom."""
-    altimeter_range_m: NotNegative = 50.0
+    altimeter_range_m: DepthOrZero = 50.0
     """Farther away the bottom is not heard."""
-    magnetic_declination_deg: Annotated[float, Field(strict=True, ge=-180, le=180)] = 0.0
+    magnetic_declination_deg: Annotated[float, between(-180, 180)] = 0.0
     """Of the Earth's field, east of true north positive."""
-    known_declination_deg: Annotated[float, Field(strict=True, ge=-180, le=180)] | None = None
+    known_declination_deg: Annotated[float, between(-180, 180)] | None = None
     """What the software corrects its headings by; the true declination if left out. The difference is an error."""
-    magnetic_inclination_deg: Annotated[float, Field(strict=True, ge=-90, le=90)] = 45.0
+    magnetic_inclination_deg: Annotated[float, between(-90, 90)] = 45.0
     """Dip of the Earth's field below the horizontal."""
     hard_iron: Triple = (0.0, 0.0, 0.0)
     """Field of the vehicle's own magnets in the body frame, in parts of the Earth's."""
@@ -61,62 +66,62 @@ class Sensing(Table):
     """Field of the running steering motor."""
     shielding: Share = 0.0
     """Part of the motors' and the valve's fields that shielding takes away."""
-    voltage_noise_v: NotNegative = 0.02
+    voltage_noise_v: Annotated[float, between(0, 100)] = 0.02
     """Of the battery's voltage, standard deviation."""
-    voltage_bias_v: Finite = 0.0
-    current_noise_a: NotNegative = 0.005
+    voltage_bias_v: Annotated[float, between(-100, 100)] = 0.0
+    current_noise_a: Annotated[float, between(0, 100)] = 0.005
     """Of the current out of the battery, standard deviation."""
-    current_bias_a: Finite = 0.0
-    internal_pressure_noise_pa: NotNegative = 20.0
+    current_bias_a: Annotated[float, between(-100, 100)] = 0.0
+    internal_pressure_noise_pa: Annotated[float, between(0, 1e5)] = 20.0
     """Of the pressure in the hull, standard deviation."""
-    internal_pressure_bias_pa: Finite = 0.0
-    leak_ml: NotNegative = 5.0
+    internal_pressure_bias_pa: Annotated[float, between(-1e5, 1e5)] = 0.0
+    leak_ml: Annotated[float, between(0, 1e5)] = 5.0
     """Water in the hull that the leak detectors notice."""
 
 
 class Ctd(Table):
     """Errors of the CTD, the glider's payload."""
 
-    temperature_noise_c: NotNegative = 0.0005
+    temperature_noise_c: Annotated[float, between(0, 10)] = 0.0005
     """Standard deviation."""
-    conductivity_noise_s_m: NotNegative = 0.00003
+    conductivity_noise_s_m: Annotated[float, between(0, 1)] = 0.00003
     """Standard deviation."""
-    pressure_noise_dbar: NotNegative = 0.02
+    pressure_noise_dbar: DepthNoise = 0.02
     """Standard deviation."""
-    temperature_lag_s: NotNegative = 0.5
+    temperature_lag_s: Lag = 0.5
     """Time constant of the thermistor."""
-    cell_lag_s: Positive = 7.0
+    cell_lag_s: Annotated[float, between(0.01, 600)] = 7.0
     """Time constant of the conductivity cell's thermal mass; Sea-Bird's figure for a pumped cell (Seasoft manual)."""
-    cell_share: NotNegative = 0.03
+    cell_share: Share = 0.03
     """Its initial magnitude, as a part of a step in temperature; from the same manual."""
 
 
 class Waves(Table):
     """The waves that wash over a floating vehicle's antenna: a JONSWAP sea."""
 
-    significant_height_m: NotNegative = 0.0
-    peak_period_s: Annotated[float, Field(strict=True, ge=1, le=30)] = 7.0
+    significant_height_m: Annotated[float, between(0, 30)] = 0.0
+    peak_period_s: Annotated[float, between(1, 30)] = 7.0
 
 
 class HullAir(Table):
     """The air in the hull when it was closed."""
 
-    pressure_kpa: Positive = 60.0
+    pressure_kpa: Annotated[float, between(0.1, 1000)] = 60.0
     """Absolute: a partial vacuum shows whether the hull is tight."""
-    temperature_c: Finite = 20.0
-    volume_l: Positive = 15.0
+    temperature_c: Annotated[float, between(-50, 80)] = 20.0
+    volume_l: Annotated[float, between(0.05, 5000)] = 15.0
     """With the ballast volume at zero."""
-    settle_minutes: Positive = 30.0
+    settle_minutes: Annotated[float, between(0.1, 10000)] = 30.0
     """Time in which it takes on the temperature of the water."""
 
 
 class Leak(Table):
     """A leak, to see what the vehicle does about it."""
 
-    after_hours: NotNegative = 0.0
-    rate_ml_min: NotNegative = 0.0
+    after_hours: Annotated[float, between(0, 17520)] = 0.0
+    rate_ml_min: Annotated[float, between(0, 1e5)] = 0.0
     """Zero for a tight hull."""
-    position_m: Triple | None = None
+    position_m: Point | None = None
     """Where the water stays, in the body frame: a compartment of its own. If left out, it runs to the lowest place."""
 
 
@@ -126,7 +131,7 @@ Policy = Literal["error", "hold", "climatology"]
 class OceanChoice(Table):
     """The water to fly in."""
 
-    name: str | None = None
+    name: Name | None = None
     """An analytic ocean; see `stommel ocean`."""
     file: str | tuple[str, ...] | None = None
     """A CF NetCDF file instead, several, or a pattern; or a profile (.csv) that stands everywhere."""
@@ -136,11 +141,11 @@ class OceanChoice(Table):
     """The same for times alone, if different."""
     climatology: str | None = None
     """A second ocean, by name or file; without one the mean of the file is the climatology."""
-    blend_km: NotNegative = 50.0
+    blend_km: Annotated[float, between(0, 20000)] = 50.0
     """Way beyond the edge of the data on which its last values give way to the climatology."""
-    blend_hours: NotNegative = 24.0
+    blend_hours: Annotated[float, between(0, 1e5)] = 24.0
     """Time beyond the data in which they do."""
-    bounds_deg: tuple[Finite, Finite, Finite, Finite] | None = None
+    bounds_deg: tuple[Degrees, Degrees, Degrees, Degrees] | None = None
     """South, north, west and east of the region to read; all of the file if left out."""
     names: dict[str, str] = Field(default_factory=dict)
     """Names of the file's variables where their standard names do not tell."""
@@ -163,13 +168,13 @@ class OceanChoice(Table):
 class Integration(Table):
     """How finely time is cut."""
 
-    control_step_s: Annotated[float, Field(strict=True, gt=0, le=10)] = 1.0
+    control_step_s: Annotated[float, between(0.05, 10)] = 1.0
     """Between two decisions of the software."""
     steady_steps: Annotated[int, Field(strict=True, ge=1, le=1000)] = 1
     """Integration steps in a control step while nothing moves; fast flight takes more by itself."""
     moving_steps: Annotated[int, Field(strict=True, ge=1, le=1000)] = 2
     """The same while an actuator moves or the vehicle answers it."""
-    settle_s: NotNegative = 10.0
+    settle_s: Seconds = 10.0
     """How long it answers."""
-    ocean_s: Positive = 600.0
+    ocean_s: Annotated[float, between(0.05, 1e6)] = 600.0
     """Between two looks at the ocean around the vehicle."""

@@ -3,17 +3,18 @@
 from math import inf, radians
 from typing import Annotated, Self
 
-from pydantic import Field, PrivateAttr, model_validator
+from pydantic import PrivateAttr, model_validator
 
-from stommel.files.fields import Interval, Point, Positive, Table, ordered
+from stommel.files.fields import Point, Table, ordered
+from stommel.files.ranges import AngularSpeed, Liquid, Position, SignedVolume, between
 
 
 class MovingMassDrive(Table):
     """Travel and speed of the moving mass along the hull."""
 
-    travel_mm: Interval
+    travel_mm: tuple[Position, Position]
     """Positions of the mass forward of the centre of buoyancy, aft end first."""
-    speed_mm_s: Positive | None = None
+    speed_mm_s: Annotated[float, between(0.01, 500)] | None = None
 
     @property
     def travel_m(self) -> tuple[float, float]:
@@ -29,11 +30,11 @@ class MovingMassDrive(Table):
 class BuoyancyEngine(Table):
     """Volume and flow of the buoyancy engine; zero is neutral."""
 
-    volume_ml: Interval
-    flow_ml_s: Positive | None = None
+    volume_ml: tuple[SignedVolume, SignedVolume]
+    flow_ml_s: Annotated[float, between(0.01, 1000)] | None = None
     bladder_position_m: Point | None = None
     reservoir_position_m: Point | None = None
-    oil_density_kg_m3: Annotated[float, Field(strict=True, ge=500, le=1500)] | None = None
+    oil_density_kg_m3: Liquid | None = None
 
     _stroke_ml: float = PrivateAttr(inf)
 
@@ -65,9 +66,9 @@ class BuoyancyEngine(Table):
 class RudderDrive(Table):
     """Travel and speed of the rudder."""
 
-    travel_deg: Annotated[float, Field(strict=True, gt=0, le=90)]
+    travel_deg: Annotated[float, between(0.1, 90)]
     """To either side."""
-    speed_deg_s: Positive | None = None
+    speed_deg_s: AngularSpeed | None = None
 
     @property
     def travel_rad(self) -> float:
@@ -78,9 +79,9 @@ class RudderDrive(Table):
 class RollDrive(Table):
     """Travel and speed of the moving mass about the longitudinal axis."""
 
-    travel_deg: Annotated[float, Field(strict=True, gt=0, le=180)]
+    travel_deg: Annotated[float, between(0.1, 180)]
     """To either side."""
-    speed_deg_s: Positive | None = None
+    speed_deg_s: AngularSpeed | None = None
 
     @property
     def travel_rad(self) -> float:

@@ -4,9 +4,10 @@ from collections.abc import Iterator, Sequence
 from math import hypot
 from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from stommel.files.fields import NotNegative, Point, Positive, Table
+from stommel.files.fields import Name, Point, Table
+from stommel.files.ranges import PartSize, ZeroOr
 from stommel.vehicle.schema.hull import Bay, Hull
 
 TOLERANCE_M = 1e-6
@@ -16,13 +17,13 @@ TOLERANCE_M = 1e-6
 class Part(Table):
     """One entry of the mass and volume budget. Without dimensions it is a point."""
 
-    name: Annotated[str, Field(min_length=1)]
+    name: Name
     """What it is; no two parts share a name."""
-    bay: str
+    bay: Name
     """Name of the bay that it belongs to."""
-    mass_kg: NotNegative
+    mass_kg: Annotated[float, ZeroOr(0.001, 1000)]
     """Mass."""
-    volume_ml: NotNegative = 0.0
+    volume_ml: Annotated[float, ZeroOr(0.1, 1e6)] = 0.0
     """Water that it displaces by itself. A dry part displaces none: the hull around it does."""
     position_m: Point
     """Its centre, of mass and of volume alike; a moving part's with the moving mass at neutral."""
@@ -32,13 +33,13 @@ class Part(Table):
     """Whether it belongs to the ballast system; its volume is that of neutral ballast."""
     trim_weight: bool = False
     """Whether it is there for trim alone, so that some or all of it may be taken out."""
-    box_mm: tuple[Positive, Positive, Positive] | None = None
+    box_mm: tuple[PartSize, PartSize, PartSize] | None = None
     """Length, width and height of a homogeneous box."""
-    length_mm: Positive | None = None
+    length_mm: PartSize | None = None
     """Length of a homogeneous cylinder along the hull; with `diameter_mm`."""
-    diameter_mm: Positive | None = None
+    diameter_mm: PartSize | None = None
     """Diameter of that cylinder."""
-    inner_diameter_mm: NotNegative = 0.0
+    inner_diameter_mm: Annotated[float, ZeroOr(0.5, 10000)] = 0.0
     """Of a cylinder that is hollow."""
 
     @property

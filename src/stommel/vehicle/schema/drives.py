@@ -4,11 +4,21 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Interval, NotNegative, Positive, Table, ordered
+from stommel.files.fields import Table, ordered
+from stommel.files.ranges import (
+    Current,
+    Efficiency,
+    NoLoadCurrent,
+    Position,
+    Power,
+    RotorInertia,
+    Share,
+    TorqueConstant,
+    Voltage,
+    between,
+)
 
-Share = Annotated[float, Field(strict=True, ge=0, le=1)]
-Efficiency = Annotated[float, Field(strict=True, gt=0, le=1)]
-LeadAngle = Annotated[float, Field(strict=True, gt=0, lt=45)]
+LeadAngle = Annotated[float, Field(strict=True, ge=0.05, lt=45)]
 Friction = Annotated[float, Field(strict=True, ge=0, lt=1)]
 FlankAngle = Annotated[float, Field(strict=True, ge=0, lt=45)]
 
@@ -16,24 +26,24 @@ FlankAngle = Annotated[float, Field(strict=True, ge=0, lt=45)]
 class DcMotor(Table):
     """Brushed direct-current motor, as its data sheet gives it."""
 
-    torque_constant_mn_m_a: Positive
+    torque_constant_mn_m_a: TorqueConstant
     """Torque per current; in SI units also the voltage per angular speed."""
-    resistance_ohm: Positive
+    resistance_ohm: Annotated[float, between(0.001, 2000)]
     """Resistance of the winding between the terminals."""
-    no_load_current_a: NotNegative
+    no_load_current_a: NoLoadCurrent
     """Current that the motor's own friction takes."""
-    nominal_voltage_v: Positive
+    nominal_voltage_v: Voltage
     """Supply, where the vehicle file has no battery."""
-    continuous_current_a: Positive
+    continuous_current_a: Current
     """Current that it bears without end."""
-    rotor_inertia_g_cm2: Positive
+    rotor_inertia_g_cm2: RotorInertia
     """Moment of inertia of the rotor, by which it runs on after a switch has opened."""
 
 
 class WormGear(Table):
     """Worm and worm wheel."""
 
-    ratio: Annotated[float, Field(strict=True, ge=1)]
+    ratio: Annotated[float, between(1, 500)]
     """Turns of the worm for one of the wheel."""
     lead_angle_deg: LeadAngle
     """Angle of the worm's thread."""
@@ -46,9 +56,9 @@ class WormGear(Table):
 class Screw(Table):
     """Screw and sliding nut."""
 
-    lead_mm: Positive
+    lead_mm: Annotated[float, between(0.05, 200)]
     """Travel of the nut in one turn."""
-    pitch_diameter_mm: Positive
+    pitch_diameter_mm: Annotated[float, between(0.5, 500)]
     """Diameter at which the flanks meet."""
     friction: Friction
     """Coefficient of sliding friction between screw and nut."""
@@ -60,7 +70,7 @@ class PitchMachinery(Table):
     """Drive of the moving mass: motor, gearbox, worm gear, screw and nut, limit switches."""
 
     motor: DcMotor
-    gearbox_ratio: Annotated[float, Field(strict=True, ge=1)] = 1.0
+    gearbox_ratio: Annotated[float, between(1, 50000)] = 1.0
     """Of a gearbox between motor and worm."""
     gearbox_efficiency: Efficiency = 1.0
     """Of that gearbox."""
@@ -68,13 +78,13 @@ class PitchMachinery(Table):
     screw: Screw
     guide_friction: Friction
     """Coefficient of friction between the moving mass and its guide."""
-    static_friction_factor: Annotated[float, Field(strict=True, ge=1, le=5)] = 1.5
+    static_friction_factor: Annotated[float, between(1, 5)] = 1.5
     """Friction at rest over friction in motion, in guide, screw and worm."""
-    switches_mm: Interval
+    switches_mm: tuple[Position, Position]
     """Positions of the mass at which a limit switch cuts the motor off; outside the travel of the actuator."""
-    stops_mm: Interval
+    stops_mm: tuple[Position, Position]
     """Positions of the mass at the mechanical end stops, outside the switches."""
-    switch_delay_ms: NotNegative = 0.0
+    switch_delay_ms: Annotated[float, between(0, 5000)] = 0.0
     """From the opening of a switch until the motor is without current."""
 
     @model_validator(mode="after")
@@ -91,11 +101,11 @@ class PitchMachinery(Table):
 class Brake(Table):
     """Electromagnetic brake on the shaft of the motor."""
 
-    holding_torque_mn_m: Positive
+    holding_torque_mn_m: Annotated[float, between(0.01, 1e5)]
     """Torque that it holds."""
-    power_w: NotNegative
+    power_w: Power
     """Power while its coil is fed."""
-    release_ms: NotNegative
+    release_ms: Annotated[float, between(0, 5000)]
     """From feeding the coil until the shaft is free."""
     normally_closed: bool = True
     """Whether it holds without power; otherwise it must be fed to hold."""
@@ -104,16 +114,16 @@ class Brake(Table):
 class RudderMachinery(Table):
     """Drive of the rudder: blade, stock with its seal, gearbox, motor, brake."""
 
-    chord_mm: Positive
+    chord_mm: Annotated[float, between(5, 2000)]
     """Chord of the blade."""
-    span_mm: Positive | None = None
+    span_mm: Annotated[float, between(5, 3000)] | None = None
     """Height of the blade, from the hull or its own root to the tip."""
     stock_chord_fraction: Share
     """Where the stock passes through the blade: distance from the leading edge over the chord."""
-    seal_friction_mn_m: NotNegative
+    seal_friction_mn_m: Annotated[float, between(0, 1e5)]
     """Friction of seal and bearings at the stock."""
     motor: DcMotor
-    gearbox_ratio: Annotated[float, Field(strict=True, ge=1)]
+    gearbox_ratio: Annotated[float, between(1, 50000)]
     """Turns of the motor for one of the stock."""
     gearbox_efficiency: Efficiency
     """Of that gearbox."""

@@ -11,9 +11,25 @@ from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Finite, Interval, NotNegative, Positive, Table, ordered
+from stommel.files.fields import Name, Table, ordered
+from stommel.files.ranges import (
+    Current,
+    Efficiency,
+    NoLoadCurrent,
+    Power,
+    RotorInertia,
+    TorqueConstant,
+    Turns,
+    Voltage,
+    between,
+)
 
-Share = Annotated[float, Field(strict=True, gt=0, le=1)]
+Force = Annotated[float, between(0, 5000)]
+"""Of friction [N]."""
+Resistance = Annotated[float, between(1e-5, 0.4)]
+"""Pressure per flow: a bore of a centimetre to one of half a millimetre [MPa s/ml]."""
+Loss = Annotated[float, between(0, 0.04)]
+"""Pressure per square of the flow: down to a bore of half a millimetre [MPa s2/ml2]."""
 Domain = Literal["shaft", "rod", "oil"]
 
 
@@ -22,7 +38,7 @@ class CircuitPart(Table):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({})
 
-    name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")]
+    name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=40)]
     """Name of the part in `connections`."""
 
 
@@ -31,21 +47,21 @@ class Motor(CircuitPart):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({"shaft": "shaft"})
 
-    supply_voltage_v: Positive
+    supply_voltage_v: Voltage
     """Voltage of the supply."""
-    torque_constant_mn_m_a: Positive
+    torque_constant_mn_m_a: TorqueConstant
     """Torque per current; the back-EMF constant is the same number."""
-    resistance_ohm: Positive
+    resistance_ohm: Annotated[float, between(0.001, 200)]
     """Terminal resistance."""
-    no_load_current_a: NotNegative
+    no_load_current_a: NoLoadCurrent
     """Current that the motor's own friction takes."""
-    rotor_inertia_g_cm2: Positive
+    rotor_inertia_g_cm2: RotorInertia
     """Moment of inertia of the rotor, with that of the gears reduced to it."""
-    current_limit_a: Positive
+    current_limit_a: Current
     """Greatest current that the driver gives the windings."""
-    driver_efficiency: Share = 1.0
+    driver_efficiency: Efficiency = 1.0
     """Share of the supply's power that reaches the windings."""
-    ramp_s: Positive
+    ramp_s: Annotated[float, between(0.005, 60)]
     """Time in which the driver brings the motor from rest to its speed, and back to rest."""
 
 
@@ -54,9 +70,9 @@ class Gearbox(CircuitPart):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({"input": "shaft", "output": "shaft"})
 
-    ratio: Positive
+    ratio: Annotated[float, between(0.05, 3000)]
     """Revolutions of the input per revolution of the output."""
-    efficiency: Share
+    efficiency: Efficiency
     """Share of the work that passes."""
 
 
@@ -65,9 +81,9 @@ class Screw(CircuitPart):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({"shaft": "shaft", "rod": "rod"})
 
-    lead_mm: Positive
+    lead_mm: Annotated[float, between(0.05, 200)]
     """Travel per revolution."""
-    efficiency: Share
+    efficiency: Efficiency
     """Share of the work that passes."""
 
 
@@ -76,36 +92,36 @@ class Pump(CircuitPart):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({"shaft": "shaft", "inlet": "oil", "outlet": "oil"})
 
-    displacement_ml_r: Positive
+    displacement_ml_r: Annotated[float, between(0.002, 100)]
     """Oil per revolution without leakage."""
-    leakage_ml_s_mpa: NotNegative = 0.0
+    leakage_ml_s_mpa: Annotated[float, between(0, 20)] = 0.0
     """Leakage from outlet to inlet per pressure difference."""
-    friction_n_m: NotNegative = 0.0
+    friction_n_m: Annotated[float, between(0, 20)] = 0.0
     """Constant friction torque."""
-    friction_share: NotNegative = 0.0
+    friction_share: Annotated[float, between(0, 5)] = 0.0
     """Friction torque proportional to pressure, as a share of the ideal torque."""
-    damping_n_m_s: NotNegative = 0.0
+    damping_n_m_s: Annotated[float, between(0, 0.2)] = 0.0
     """Friction torque proportional to speed."""
 
 
 class Piston(CircuitPart):
     """What a cylinder with a free piston and one with a driven piston share."""
 
-    bore_mm: Positive
+    bore_mm: Annotated[float, between(2, 500)]
     """Diameter of the piston."""
-    stroke_mm: Positive
+    stroke_mm: Annotated[float, between(2, 3000)]
     """Travel between the mechanical end stops; at zero the chamber is empty."""
-    working_range_mm: Interval
+    working_range_mm: tuple[Annotated[float, between(0, 3000)], Annotated[float, between(0, 3000)]]
     """Positions between which the controller moves the piston; bladder inflated first."""
-    coulomb_n: NotNegative = 0.0
+    coulomb_n: Force = 0.0
     """Coulomb friction."""
-    stribeck_n: NotNegative = 0.0
+    stribeck_n: Force = 0.0
     """Friction at rest above the Coulomb friction."""
-    stribeck_mm_s: Positive = 0.5
+    stribeck_mm_s: Annotated[float, between(0.01, 1000)] = 0.5
     """Velocity at which 1/e of that remains."""
-    viscous_n_s_m: NotNegative = 0.0
+    viscous_n_s_m: Annotated[float, between(0, 2e5)] = 0.0
     """Friction per velocity."""
-    gas_pressure_mpa: Annotated[float, Field(strict=True, ge=-0.1013, le=1)] = 0.0
+    gas_pressure_mpa: Annotated[float, between(-0.1013, 1)] = 0.0
     """Gauge pressure behind the piston; negative in an evacuated hull."""
 
     @property
@@ -133,7 +149,7 @@ class Reservoir(Piston):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({"oil": "oil"})
 
-    piston_mass_kg: Positive
+    piston_mass_kg: Annotated[float, between(0.001, 100)]
     """Mass that moves with the piston."""
 
 
@@ -148,9 +164,9 @@ class Line(CircuitPart):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({"a": "oil", "b": "oil"})
 
-    resistance_mpa_s_ml: Positive
+    resistance_mpa_s_ml: Resistance
     """Laminar loss per flow."""
-    loss_mpa_s2_ml2: NotNegative = 0.0
+    loss_mpa_s2_ml2: Loss = 0.0
     """Turbulent loss per flow squared."""
 
 
@@ -159,9 +175,9 @@ class CheckValve(CircuitPart):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({"inlet": "oil", "outlet": "oil"})
 
-    cracking_pressure_mpa: NotNegative
+    cracking_pressure_mpa: Annotated[float, between(0, 5)]
     """Pressure difference at which it opens."""
-    resistance_mpa_s_ml: Positive
+    resistance_mpa_s_ml: Resistance
     """Loss per flow above the cracking pressure."""
 
 
@@ -170,11 +186,11 @@ class SolenoidValve(CircuitPart):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({"a": "oil", "b": "oil"})
 
-    resistance_mpa_s_ml: Positive
+    resistance_mpa_s_ml: Resistance
     """Laminar loss per flow when open."""
-    loss_mpa_s2_ml2: NotNegative = 0.0
+    loss_mpa_s2_ml2: Loss = 0.0
     """Turbulent loss per flow squared when open."""
-    power_w: NotNegative = 0.0
+    power_w: Power = 0.0
     """Power of the coil while it is open."""
 
 
@@ -183,11 +199,11 @@ class Accumulator(CircuitPart):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({"oil": "oil"})
 
-    gas_volume_ml: Positive
+    gas_volume_ml: Annotated[float, between(0.5, 20000)]
     """Volume of the gas when there is no oil in it."""
-    precharge_mpa: Positive
+    precharge_mpa: Annotated[float, between(0.01, 120)]
     """Gauge pressure of the gas when there is no oil in it."""
-    polytropic_exponent: Annotated[float, Field(strict=True, ge=1, le=1.7)] = 1.2
+    polytropic_exponent: Annotated[float, between(1, 1.7)] = 1.2
     """1 for slow, 1.4 for fast changes."""
 
 
@@ -196,41 +212,41 @@ class Bladder(CircuitPart):
 
     PORTS: ClassVar[Mapping[str, Domain]] = MappingProxyType({"oil": "oil"})
 
-    stiffness_mpa_ml: NotNegative = 0.0
+    stiffness_mpa_ml: Annotated[float, between(0, 1)] = 0.0
     """Rise of the pressure inside above the sea's, per volume."""
 
 
 class DisplacementSensor(Table):
     """Sensor that measures a piston's position and tells the controller when to stop."""
 
-    measures: str
+    measures: Name
     """Name of the reservoir or cylinder."""
-    resolution_mm: Positive
+    resolution_mm: Annotated[float, between(0.0001, 10)]
     """Least step of its reading."""
 
 
 class Oil(Table):
     """The fluid, and what of it stands in every node of the circuit."""
 
-    bulk_modulus_mpa: Positive
+    bulk_modulus_mpa: Annotated[float, between(50, 5000)]
     """Pressure per relative compression, with dissolved gas and hoses."""
-    node_volume_ml: Positive
+    node_volume_ml: Annotated[float, between(0.1, 2000)]
     """Oil in bores and fittings of one node."""
 
 
 class EnginePhase(Table):
     """What the controller switches on to inflate or to deflate."""
 
-    motor_speed_rpm: Finite = 0.0
+    motor_speed_rpm: Annotated[float, between(-50000, 50000)] = 0.0
     """Speed of the motor; negative turns backwards; zero leaves it locked."""
-    open_valves: tuple[str, ...] = ()
+    open_valves: tuple[Name, ...] = ()
     """Solenoid valves that are open."""
 
 
 class Engine(Table):
     """Hydraulic circuit of the buoyancy engine."""
 
-    connections: tuple[tuple[str, ...], ...]
+    connections: tuple[tuple[Name, ...], ...]
     """Ports that share a node: `["pump.outlet", "check.inlet"]`."""
     oil: Oil
     sensor: DisplacementSensor
@@ -247,7 +263,7 @@ class Engine(Table):
     solenoid_valves: tuple[SolenoidValve, ...] = ()
     accumulators: tuple[Accumulator, ...] = ()
     bladders: tuple[Bladder, ...] = ()
-    ideal_pump_speed_rpm: Positive | None = None
+    ideal_pump_speed_rpm: Turns | None = None
     """Speed of the pump or screw in the case without losses; that of the inflating motor if left out."""
 
     def parts(self) -> Iterator[CircuitPart]:
@@ -267,7 +283,7 @@ class Engine(Table):
     def _circuit_is_possible(self) -> Self:
         wrong = list(_circuit_problems(self))
         if wrong:
-            raise ValueError("; ".join(wrong))
+            raise ValueError("\n".join(wrong))
         return self
 
 

@@ -3,61 +3,74 @@
 from math import pi
 from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from stommel.files.fields import Finite, NotNegative, Positive, Table
+from stommel.files.fields import Name, Table
+from stommel.files.ranges import (
+    BodyLength,
+    Compressibility,
+    Coordinate,
+    Depth,
+    Diameter,
+    Pressure,
+    ThermalExpansion,
+    Wall,
+    ZeroOr,
+    between,
+)
 
-Fraction = Annotated[float, Field(strict=True, gt=0, le=1)]
-AtLeastOne = Annotated[float, Field(strict=True, ge=1, allow_inf_nan=False)]
+Fraction = Annotated[float, between(0.1, 1)]
+SafetyFactor = Annotated[float, between(1, 50)]
+End = Annotated[float, ZeroOr(0.002, 5)]
 
 
 class Rings(Table):
     """Ring stiffeners inside the tube, of rectangular section."""
 
-    spacing_mm: Positive
+    spacing_mm: Annotated[float, between(1, 10000)]
     """Distance between neighbouring rings, or between a ring and the end of the bay."""
-    height_mm: Positive
+    height_mm: Annotated[float, between(0.1, 1000)]
     """How far a ring stands inward from the wall."""
-    width_mm: Positive
+    width_mm: Annotated[float, between(0.1, 1000)]
     """Width of a ring along the tube."""
 
 
 class Hull(Table):
     """Pressure hull."""
 
-    length_m: Positive
-    outer_diameter_mm: Positive
-    inner_diameter_mm: Positive | None = None
-    nose_position_m: Finite
+    length_m: BodyLength
+    outer_diameter_mm: Diameter
+    inner_diameter_mm: Annotated[float, between(10, 2000)] | None = None
+    nose_position_m: Coordinate
     """Forward end of the sealed hull, forward of the centre of buoyancy."""
-    tail_length_m: NotNegative = 0.0
+    tail_length_m: End = 0.0
     """What extends aft of the sealed hull: wet tail, bladder, rudder."""
-    nose_length_m: NotNegative = 0.0
+    nose_length_m: End = 0.0
     """What extends forward of the sealed hull: wet nose with sensors."""
-    material: str | None = None
-    wall_mm: Positive | None = None
-    depth_rating_m: Positive | None = None
-    design_pressure_mpa: Positive | None = None
+    material: Name | None = None
+    wall_mm: Wall | None = None
+    depth_rating_m: Depth | None = None
+    design_pressure_mpa: Pressure | None = None
     """Pressure that the depth rating stands for; the water's weight over that depth if left out. P_max of the paper."""
-    checked_length_m: Positive | None = None
+    checked_length_m: Annotated[float, between(0.01, 10)] | None = None
     """Longest length of tube between reinforced joints: L of the paper. The longest dry bay if left out."""
     weld_efficiency: Fraction = 1.0
     """Share of the wall's strength that a longitudinal weld keeps; 1 for a seamless tube."""
-    wall_allowance_mm: NotNegative = 0.0
+    wall_allowance_mm: Annotated[float, between(0, 50)] = 0.0
     """Wall that corrosion and tolerances may take: C of the paper."""
-    yield_safety_factor: AtLeastOne = 2.0
+    yield_safety_factor: SafetyFactor = 2.0
     """Yield stress over permissible stress."""
-    tensile_safety_factor: AtLeastOne = 3.0
+    tensile_safety_factor: SafetyFactor = 3.0
     """Tensile stress over permissible stress."""
-    circumferential_safety_factor: AtLeastOne = 2.0
+    circumferential_safety_factor: SafetyFactor = 2.0
     """Critical over working pressure for buckling round the circumference: m_c of the paper."""
     knock_down: Fraction = 1.0
     """Share of a perfect tube's buckling pressure round the circumference that the built tube keeps; 1 if left out."""
-    axial_safety_factor: AtLeastOne = 3.0
+    axial_safety_factor: SafetyFactor = 3.0
     """Critical over permissible stress for buckling along the axis: m_a of the paper."""
     rings: Rings | None = None
-    compressibility_per_pa: NotNegative = 0.0
-    thermal_expansion_per_k: Finite = 0.0
+    compressibility_per_pa: Compressibility = 0.0
+    thermal_expansion_per_k: ThermalExpansion = 0.0
 
     @model_validator(mode="after")
     def _has_an_inside(self) -> Self:
@@ -90,10 +103,10 @@ class Hull(Table):
 class Bay(Table):
     """A section of the vehicle (Fig. 6 of the paper)."""
 
-    name: str
-    from_m: Finite
+    name: Name
+    from_m: Coordinate
     """Forward end, forward of the centre of buoyancy."""
-    to_m: Finite
+    to_m: Coordinate
     """Aft end."""
     flooded: bool = False
     holds: tuple[str, ...] = ()

@@ -2,32 +2,38 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from stommel.files.fields import Finite, NotNegative, NotPositive, Positive, Table, ordered
+from stommel.files.fields import Table, ordered
+from stommel.files.ranges import Coordinate, between
+
+ZeroAngleForce = Annotated[float, between(-5000, 5000)]
+SideForceSlope = Annotated[float, between(0, 10000)]
+MomentSlope = Annotated[float, between(-20000, 20000)]
+Damping = Annotated[float, between(-15000, 0)]
 
 
 class Hydrodynamics(Table):
     """Viscous coefficients; forces are coefficient times speed squared, angles in radians."""
 
-    drag_kg_m: Positive
-    drag_per_rad2_kg_m: NotNegative
-    lift_kg_m: Finite = 0.0
-    lift_per_rad_kg_m: Positive
-    pitch_moment_kg: Finite = 0.0
-    pitch_moment_per_rad_kg: Finite
-    pitch_damping_kg_s: NotPositive | None = None
-    side_force_per_rad_kg_m: NotNegative | None = None
+    drag_kg_m: Annotated[float, between(0.01, 1000)]
+    drag_per_rad2_kg_m: Annotated[float, between(0, 20000)]
+    lift_kg_m: ZeroAngleForce = 0.0
+    lift_per_rad_kg_m: Annotated[float, between(0.1, 50000)]
+    pitch_moment_kg: ZeroAngleForce = 0.0
+    pitch_moment_per_rad_kg: MomentSlope
+    pitch_damping_kg_s: Damping | None = None
+    side_force_per_rad_kg_m: SideForceSlope | None = None
     """Positive: the side force opposes sideslip."""
-    roll_moment_per_rad_kg: Finite | None = None
-    yaw_moment_per_rad_kg: Finite | None = None
-    roll_damping_kg_s: NotPositive | None = None
-    yaw_damping_kg_s: NotPositive | None = None
+    roll_moment_per_rad_kg: MomentSlope | None = None
+    yaw_moment_per_rad_kg: MomentSlope | None = None
+    roll_damping_kg_s: Damping | None = None
+    yaw_damping_kg_s: Damping | None = None
     moments_along: Literal["body", "flow"] = "body"
     """Axes of the moments: the body's as in the paper, or the flow's as in Graver (2005) and Zhang et al. (2013)."""
-    stall_begins_deg: Annotated[float, Field(strict=True, gt=0, lt=60)] = 15.0
-    stall_ends_deg: Annotated[float, Field(strict=True, gt=0, lt=90)] = 30.0
-    broadside_drag_kg_m: Positive | None = None
+    stall_begins_deg: Annotated[float, between(1, 59)] = 15.0
+    stall_ends_deg: Annotated[float, between(2, 89)] = 30.0
+    broadside_drag_kg_m: Annotated[float, between(0.1, 50000)] | None = None
     """Normal force of the separated flow at 90 degrees; the lift slope where it is not given."""
 
     @model_validator(mode="after")
@@ -39,17 +45,17 @@ class Hydrodynamics(Table):
 class Wing(Table):
     """The wing's share of the coefficients, for the component build-up."""
 
-    aerodynamic_centre_aft_m: Finite
-    reference_aft_m: Finite
+    aerodynamic_centre_aft_m: Coordinate
+    reference_aft_m: Coordinate
     """Where the wing was when the vehicle's total coefficients were found."""
-    lift_per_rad_kg_m: NotNegative
+    lift_per_rad_kg_m: Annotated[float, between(0, 50000)]
 
 
 class Rudder(Table):
     """The rudder's share of the coefficients, and its travel."""
 
-    aerodynamic_centre_aft_m: Finite
-    reference_aft_m: Finite
-    height_m: Finite
+    aerodynamic_centre_aft_m: Coordinate
+    reference_aft_m: Coordinate
+    height_m: Annotated[float, between(-3, 3)]
     """Aerodynamic centre above the longitudinal axis."""
-    side_force_per_rad_kg_m: NotNegative
+    side_force_per_rad_kg_m: SideForceSlope

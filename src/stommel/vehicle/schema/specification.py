@@ -4,28 +4,29 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from stommel.files.fields import Positive, Table, ordered
+from stommel.files.fields import Table, ordered
+from stommel.files.ranges import BodyLength, Depth, Diameter, Mass, Speed, between
 
 
 class Specification(Table):
     """What the vehicle is asked to do: Table 3 of the paper, and the flight that section 3.1 designs for."""
 
-    body_length_m: Positive
-    overall_length_m: Positive
-    diameter_mm: Positive
-    mass_kg: Positive
-    oil_volume_ml: Positive
-    depth_m: Positive
-    pitch_deg: Annotated[float, Field(strict=True, gt=0, lt=90)]
-    rudder_deg: Annotated[float, Field(strict=True, gt=0, le=90)] | None = None
-    endurance_days: Positive | None = None
-    speed_m_s: Positive | None = None
+    body_length_m: BodyLength
+    overall_length_m: Annotated[float, between(0.2, 15)]
+    diameter_mm: Diameter
+    mass_kg: Mass
+    oil_volume_ml: Annotated[float, between(1, 1e5)]
+    depth_m: Depth
+    pitch_deg: Annotated[float, Field(strict=True, ge=0.1, lt=90)]
+    rudder_deg: Annotated[float, between(0.1, 90)] | None = None
+    endurance_days: Annotated[float, between(0.01, 3650)] | None = None
+    speed_m_s: Speed | None = None
     """Greatest speed along the path that the design must reach."""
-    design_speed_m_s: Positive | None = None
+    design_speed_m_s: Speed | None = None
     """Speed of Table 1: pitch is varied at this speed."""
-    design_pitch_deg: Annotated[float, Field(strict=True, gt=0, lt=90)] | None = None
+    design_pitch_deg: Annotated[float, Field(strict=True, ge=0.1, lt=90)] | None = None
     """Magnitude of the pitch of Table 2: speed is varied at this pitch."""
-    shallowest_pitch_deg: Annotated[float, Field(strict=True, gt=0, lt=90)] = 5.0
+    shallowest_pitch_deg: Annotated[float, Field(strict=True, ge=0.1, lt=90)] = 5.0
     """Magnitude of the shallowest pitch that the design must fly at the design speed."""
 
     @model_validator(mode="after")
@@ -37,6 +38,6 @@ class Specification(Table):
 class ReferenceWater(Table):
     """Water in which the vehicle is trimmed neutral."""
 
-    density_kg_m3: Annotated[float, Field(strict=True, ge=900, le=1200)]
-    temperature_c: Annotated[float, Field(strict=True, ge=-3, le=45)] = 15.0
-    gravity_m_s2: Annotated[float, Field(strict=True, ge=9.7, le=9.9)] = 9.81
+    density_kg_m3: Annotated[float, between(900, 1200)]
+    temperature_c: Annotated[float, between(-3, 45)] = 15.0
+    gravity_m_s2: Annotated[float, between(9.7, 9.9)] = 9.81

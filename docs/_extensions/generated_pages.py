@@ -26,33 +26,14 @@ from sphinx.util.inspect import signature as sphinx_signature
 from sphinx.util.inspect import stringify_signature
 
 import stommel
-from stommel.files.fields import Table
+from stommel.files.docstrings import attribute_docstrings
 from stommel.files.sentences import allowed_range
+from stommel.files.table_keys import models_in
 from stommel.files.units import unit_of
 from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle.schema import VehicleFile
 
 logger = logging.getLogger(__name__)
-
-
-def attribute_docstrings(model: type[BaseModel]) -> dict[str, str]:
-    """Return the text that stands below each attribute in the source of a class or of the tables it inherits from."""
-    found = {}
-    for table in reversed([base for base in model.__mro__ if issubclass(base, Table) and base is not Table]):
-        body = ast.parse(inspect.getsource(table)).body[0]
-        assert isinstance(body, ast.ClassDef)
-        for before, after in zip(body.body, body.body[1:], strict=False):
-            if isinstance(before, ast.AnnAssign) and isinstance(before.target, ast.Name):
-                match after:
-                    case ast.Expr(ast.Constant(str(text))):
-                        found[before.target.id] = " ".join(text.split())
-    return found
-
-
-def _models_in(annotation: Any) -> list[type[BaseModel]]:
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return [annotation]
-    return [model for argument in get_args(annotation) for model in _models_in(argument)]
 
 
 def tables(model: type[BaseModel], prefix: str = "") -> Iterator[tuple[str, str, type[BaseModel]]]:
@@ -61,7 +42,7 @@ def tables(model: type[BaseModel], prefix: str = "") -> Iterator[tuple[str, str,
     name = prefix.removesuffix("[]")
     yield name, f"[[{name}]]" if many else f"[{name}]" if name else "Head of the file", model
     for key, field in model.model_fields.items():
-        for inner in _models_in(field.annotation):
+        for inner in models_in(field.annotation):
             repeated = any(get_origin(a) is tuple for a in (field.annotation, *get_args(field.annotation)))
             yield from tables(inner, f"{name}.{key}".lstrip(".") + ("[]" if repeated else ""))
 
@@ -128,7 +109,7 @@ def file_tables(model: type[BaseModel], meanings: dict[str, str], what: str) -> 
     unused = set(meanings)
     for name, heading, table in tables(model):
         yield f"\n## {heading if not name else f'`{heading}`'}\n\n{inspect.getdoc(table)}\n\n"
-        keys = [key for key, field in table.model_fields.items() if not _models_in(field.annotation)]
+        keys = [key for key, field in table.model_fields.items() if not models_in(field.annotation)]
         yield "| key | unit | meaning | allowed | if left out |\n|---|---|---|---|---|\n"
         written = attribute_docstrings(table)
         for key in keys:

@@ -11,7 +11,7 @@ from math import degrees, inf, sqrt
 import numpy as np
 
 import stommel
-from stommel.analysis import linearise, specified_flights
+from stommel.analysis import authority, linearise, specified_flights
 from stommel.design.published import published_tables
 
 # name, wanted flight, published (quantity, unit, printed, half a unit of the last printed digit)
@@ -52,6 +52,7 @@ def report() -> Iterator[str]:
     yield from equilibria()
     yield from closed_forms()
     yield from trends()
+    yield from lateral_claims()
     yield "## Checked by the tests\n"
     yield (
         "The equations of motion against an independent derivation by Lagrange with automatic differentiation of the "
@@ -165,9 +166,36 @@ def trends() -> Iterator[str]:
     steep = [p for p in range(-60, -30) if _spiral(zju, float(p)) > 0]
     yield (
         "Every oscillatory mode gains damping, as the paper finds. The heave subsidence and, over its first steps, the yaw "
-        "subsidence give a little away. With the lateral coefficients of its file, which were never measured, the spiral of "
+        "subsidence give a little away. With the lateral coefficients of its file, which are assumptions, the spiral of "
         f"the ZJU glider diverges at a pitch of {max(steep, default=-inf):g} deg and steeper, at 0.4 m/s.\n"
     )
+
+
+def lateral_claims() -> Iterator[str]:
+    """What the doubtful side force does to the turn and to the spiral."""
+    yield "## What rests on the side force\n"
+    yield (
+        "The lateral coefficients of `zju` are assumptions, and implausible ones ({doc}`checked`). Final turn rate per rudder "
+        "angle, and the slowest lateral eigenvalue, at 0.4 m/s with the side force of the file and with that of Sea-Wing's "
+        "published set. The fin of a real Slocum turned it with about 3 deg/s per rad in dives and 4 to 5 in climbs.\n"
+    )
+    yield "| pitch [deg] | turn at 20 [deg/s per rad] | at 115 | slowest at 20 [1/s] | at 115 |"
+    yield "|---|---|---|---|---|"
+    zju = stommel.load_vehicle("zju")
+    sets = [zju.with_value("hydrodynamics.side_force_per_rad_kg_m", value) for value in (20.0, 115.0)]
+    for pitch in (-50, -35, -25, -14, -5, 5, 14, 25, 35, 50):
+        turns = [_turn_per_rudder(vehicle, pitch) for vehicle in sets]
+        slow = [_spiral(vehicle, pitch) for vehicle in sets]
+        yield f"| {pitch} | {turns[0]:.2f} | {turns[1]:.2f} | {slow[0]:.3f} | {slow[1]:.3f} |"
+    yield "\n"
+
+
+def _turn_per_rudder(vehicle: stommel.Vehicle, pitch: float) -> float:
+    """Final turn rate per rudder angle at 0.4 m/s [deg/s per rad]."""
+    flight = stommel.trim(vehicle, speed_m_s=0.4, pitch_deg=pitch, within_limits=False)
+    found = authority(linearise(vehicle, flight)).turn_rate_deg_s_per_rudder_deg
+    assert found is not None
+    return degrees(found)
 
 
 def _spiral(vehicle: stommel.Vehicle, pitch: float) -> float:

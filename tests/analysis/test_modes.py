@@ -195,7 +195,7 @@ def test_root_locus_refuses_what_it_cannot_vary(zju: stommel.Vehicle) -> None:
         stommel.root_locus(zju, "wing.colour", 0.0, 1.0)
     with pytest.raises(FileError, match=r"at moving_mass\.mass_kg = -1 kg: .*between 0\.02 and 1000 kg"):
         stommel.root_locus(zju, "moving_mass.mass_kg", -1.0, 1.0)
-    with pytest.raises(stommel.StommelError, match=r"no table \[hull\] or no table \[wing\]"):
+    with pytest.raises(stommel.StommelError, match=r"no table \[hull\], which it needs; \[hull\] needs length_m"):
         stommel.root_locus(stommel.load_vehicle("slocum"), "wing_position", 0.0, 0.2)
 
 

@@ -63,3 +63,22 @@ def test_a_budget_that_does_not_float_is_not_applied() -> None:
     heavy = ZJU.with_value("parts.0.mass_kg", 12.0)
     with pytest.raises(BudgetError, match="does not float is not applied"):
         applied_text(budget_study(heavy), TEXT)
+
+
+def test_a_budget_that_does_not_sink_is_not_applied() -> None:
+    """1.5 kg of lead out of 60 kg where the engine has 250 ml below neutral."""
+    light = ZJU.with_value("parts.23.mass_kg", ZJU.value("parts.23.mass_kg") - 1.5)
+    assert ZJU.description.parts[23].trim_weight
+    with pytest.raises(BudgetError, match="does not sink is not applied"):
+        applied_text(budget_study(light), TEXT)
+
+
+def test_a_budget_that_would_not_return_from_the_depth_is_not_applied() -> None:
+    """220 g too heavy: 250 ml lift it at the surface, but at 2 MPa 60 l at 5e-10 1/Pa have lost 59 ml."""
+    heavy = ZJU.with_value("parts.23.mass_kg", ZJU.value("parts.23.mass_kg") + 0.22)
+    (found,) = [warning for warning in budget_study(heavy).warnings if warning.name == "does_not_rise"]
+    assert "lost 58.9 ml" in found.message
+    with pytest.raises(BudgetError, match="does not rise is not applied"):
+        applied_text(budget_study(heavy), TEXT)
+    (within,) = [ZJU.with_value("parts.23.mass_kg", ZJU.value("parts.23.mass_kg") + 0.18)]
+    assert applied_text(budget_study(within), TEXT)

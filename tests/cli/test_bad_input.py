@@ -24,7 +24,7 @@ def refused(found: Outcome, *words: str) -> None:
         (("trim", "zju", "--speed", 0.4, "--pitch", -90), ["pitch = -90 deg", "between -90 and 90"]),
         (("trim", "zju", "--speed", -1, "--pitch", -35), ["--speed = -1: must be between 0.005 and 5 m/s"]),
         (("trim", "zju", "--speed", "fast", "--pitch", -35), ["--speed"]),
-        (("trim", "zju", "--speed", 0.4), ["pitch or a glide path"]),
+        (("trim", "slocum", "--speed", 0.4), ["give --pitch", "specification.design_pitch_deg"]),
         (("trim", "zju", "--speed", 0.4, "--pitch", -35, "--glide-path", -30), ["not both"]),
         (("trim", "zjoo", "--speed", 0.4, "--pitch", -35), ["zjoo", "built-in: rogue, seawing, slocum, zju"]),
         (("trim", "zju", "--sped", 0.4), ["No such option", "--speed"]),

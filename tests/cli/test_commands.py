@@ -190,7 +190,8 @@ def test_vehicles_and_new_file(stommel: Command, tmp_path: Path) -> None:
     assert stommel("vehicle", "new", "mine.toml").status == 2
     assert stommel("vehicle", "new", "mine.toml", "--from", "slocum", "--force").status == 0
     shown = stommel("vehicle", "show", "mine.toml", "--json").json
-    assert shown["name"] == "Slocum (Graver 2005)"
+    assert shown["name"] == "mine"
+    assert shown["description"]["rigid_body"] == load_vehicle("slocum").description.rigid_body.model_dump(mode="json")
     path = tmp_path / "mine.toml"
     path.write_text(path.read_text().replace("mass_kg = 40", "mass_kg = 41"))
     assert stommel("trim", "mine.toml", "--speed", 0.3, "--pitch", -23).status == 0

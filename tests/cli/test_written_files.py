@@ -211,6 +211,8 @@ def test_paths_that_cannot_be_written_are_refused_before_any_work(folder: Path, 
 def test_another_ending_is_refused_with_those_that_are_allowed(folder: Path, verb: str, option: str) -> None:
     allowed = SAVE.get(option) or SAVE_AS[verb]
     for name in ("hull.v2", "plot", "plot.jpeg", "plot.", allowed[0], f"plot{allowed[0]}.old"):
+        if (verb, name) == ("vehicle new", "plot"):
+            continue  # a bare name is that of the vehicle: tests/vehicle/test_new_vehicle.py
         told = refusal(verb, option, name)
         assert told.startswith(f"{option} {name}: the name must end with ")
         assert re.findall(r"\.[a-z]+\b", told.split("must end with")[1]) == list(allowed)

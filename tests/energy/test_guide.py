@@ -21,7 +21,7 @@ def decided(text: str) -> str:
     """The vehicle file after the decisions of the guide's TOML block, applied as it says."""
     (block,) = blocks(GUIDE, "toml")
     consumer, plan = (part.split("\n", 1)[1] for part in block.split("# in ")[1:])
-    text = text.replace('on = "always"\n', consumer.strip() + "\n", 1)
+    text = re.sub(r'^on = "always".*$', consumer.strip(), text, count=1, flags=re.M)
     changed = re.sub(r"^dives_per_surfacing = .*$", plan.strip(), text, flags=re.M)
     assert changed != text
     return changed

@@ -24,6 +24,7 @@ PURE = {
     # shares, factors, ratios, coefficients of friction
     "axial_safety_factor", "circumferential_safety_factor", "tensile_safety_factor", "yield_safety_factor",
     "static_friction_factor", "battery_share", "cell_share", "friction_share", "derating_fraction", "usable_fraction",
+    "knock_down",
     "stock_chord_fraction", "duty", "efficiency", "driver_efficiency", "gearbox_efficiency", "pitch_drive_efficiency",
     "pump_efficiency", "regulator_efficiency", "weld_efficiency", "friction", "guide_friction", "gearbox_ratio",
     "ratio",

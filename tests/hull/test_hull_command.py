@@ -81,6 +81,58 @@ def test_plot_and_own_materials(stommel: Command, tmp_path: Path) -> None:
     assert (tmp_path / "hull.png").read_bytes().startswith(b"\x89PNG")
 
 
+def long_bay(folder: Path) -> str:
+    """The vehicle of the paper with 1.2 m between its joints."""
+    from stommel.vehicle.loading import builtin_text
+
+    text = builtin_text("zju")
+    assert "checked_length_m = { value = 0.75" in text
+    (folder / "long.toml").write_text(
+        text.replace("checked_length_m = { value = 0.75", "checked_length_m = { value = 1.2")
+    )
+    return "long.toml"
+
+
+def test_raised_walls_are_marked_in_terminal_and_json(stommel: Command, tmp_path: Path) -> None:
+    name = long_bay(tmp_path)
+    shown = stommel("hull", name, "--material", "alumina").out
+    assert "3.7+" in shown
+    assert "raised to 3.7 mm" in shown
+    (row,) = stommel("hull", name, "--material", "alumina", "--json").json["materials"]
+    assert row["raised_for"] == ["von Mises, n lobes"]
+    assert row["fails"] == []
+    assert row["collapse_depth_m"] >= 400
+
+
+def test_failed_walls_are_marked_in_terminal_and_json(stommel: Command, tmp_path: Path) -> None:
+    """2.6 mm of carbon fibre, for 30 m between joints 1.2 m apart."""
+    asked = ("hull", long_bay(tmp_path), "--material", "carbon-fibre", "--depth", 30, "--wall", 2.6)
+    shown = stommel(*asked).out
+    assert "2.6!" in shown
+    assert "classical criterion not met: carbon-fibre, wall 2.6 mm: von Mises" in " ".join(shown.split())
+    (row,) = stommel(*asked, "--json").json["materials"]
+    assert "von Mises, n lobes" in row["fails"]
+
+
+def test_knock_down_is_an_option_a_key_and_a_word_of_the_answer(stommel: Command, tmp_path: Path) -> None:
+    asked = stommel("hull", "zju", "--material", "TC4", "--knock-down", 0.75)
+    assert "knock-down for imperfections: 0.75 of the buckling pressure" in " ".join(asked.out.split())
+    plain = stommel("hull", "zju", "--material", "TC4")
+    assert "knock-down for imperfections: none" in " ".join(plain.out.split())
+    found = stommel("hull", "zju", "--material", "TC4", "--knock-down", 0.75, "--json").json
+    assert found["knock_down"] == 0.75
+    # Eq. (9): the wall grows with the pressure to the power 0.4
+    was = stommel("hull", "zju", "--material", "TC4", "--json").json["materials"][0]["circumferential_wall_mm"]
+    assert found["materials"][0]["circumferential_wall_mm"] == pytest.approx(was * 0.75**-0.4)
+    from stommel.vehicle.loading import builtin_text
+
+    (tmp_path / "mine.toml").write_text(
+        builtin_text("zju").replace("[hull]", '[hull]\nknock_down = { value = 0.75, assumption = "as built" }')
+    )
+    key = stommel("hull", "mine.toml", "--material", "TC4", "--json").json
+    assert key["materials"][0]["wall_mm"] == found["materials"][0]["wall_mm"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -89,6 +141,9 @@ def test_plot_and_own_materials(stommel: Command, tmp_path: Path) -> None:
         (("zju", "--depth", "nan"), ["--depth = nan: must be"]),
         (("zju", "--depth", 200, "--pressure-mpa", 2), ["not both"]),
         (("zju", "--material", "unobtainium"), ["'unobtainium'", "known materials: 12Cr1MoV"]),
+        (("zju", "--knock-down", 0), ["--knock-down = 0: must be between 0.1 and 1"]),
+        (("zju", "--knock-down", 1.2), ["--knock-down = 1.2: must be between 0.1 and 1"]),
+        (("zju", "--knock-down", "nan"), ["--knock-down = nan"]),
         (("zju", "--wall", 0), ["--wall = 0: must be between 0.1 and 200 mm"]),
         (("zju", "--wall", 110), ["wall = 110 mm", "less than half"]),
         (("zju", "--material", "LY12", "--pressure-mpa", 200), ["LY12", "no wall"]),

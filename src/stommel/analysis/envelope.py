@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stommel.analysis.flight import SteadyFlight, flight_from
-from stommel.analysis.limits import reachable
+from stommel.analysis.limits import Reason, excesses, reachable
 from stommel.analysis.request import RequestError
 from stommel.analysis.steady_equations import ALPHA, CONVERGED, QUANTITIES, R_PX
 from stommel.analysis.trim import trim
@@ -17,6 +17,7 @@ from stommel.analysis.wings_level import trim_at_ballast
 from stommel.dynamics.packing import pack, reference_water
 from stommel.seawater.water import Water
 from stommel.vehicle import PAPER, Physics, Vehicle
+from stommel.vehicle.missing_table import missing_table
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,10 @@ def flight_envelope(
     """
     engine = vehicle.description.actuators.buoyancy
     if engine is None:
-        raise RequestError(f"{vehicle.name}: an envelope needs the table [actuators.buoyancy] with volume_ml")
+        raise RequestError(
+            f"{vehicle.name}: an envelope needs the table [actuators.buoyancy] with volume_ml; "
+            f"{missing_table('actuators.buoyancy')}"
+        )
     if pitches_deg is None:
         steep = [1.0, 2.0, 3.0, 4.0, *range(5, 90, 5), 88.0]
         pitches_deg = [*(-p for p in reversed(steep)), *steep]
@@ -153,6 +157,8 @@ class RangesNeeded:
     """Flight that needs the most travel."""
     heaviest: SteadyFlight
     """Flight that needs the most volume."""
+    stalled: tuple[SteadyFlight, ...] = ()
+    """Those of the wanted flights that lie beyond the stall angle, which no range of an actuator reaches."""
 
     def as_row(self) -> dict[str, object]:
         """The ranges in words with units."""
@@ -163,6 +169,7 @@ class RangesNeeded:
             "ballast_volume_choice_ml": self.ballast_choice_ml,
             "most_travel_at": {"speed_m_s": self.furthest.V, "pitch_deg": degrees(self.furthest.theta)},
             "most_volume_at": {"speed_m_s": self.heaviest.V, "pitch_deg": degrees(self.heaviest.theta)},
+            "beyond_stall": [{"speed_m_s": one.V, "pitch_deg": degrees(one.theta)} for one in self.stalled],
         }
 
 
@@ -207,6 +214,9 @@ def ranges_needed(
         ballast_choice_ml=ceil(volume / volume_step_ml) * volume_step_ml,
         furthest=furthest,
         heaviest=heaviest,
+        stalled=tuple(
+            flight for flight in flights if any(one.reason is Reason.STALL for one in excesses(vehicle, flight))
+        ),
     )
 
 

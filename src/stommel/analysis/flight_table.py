@@ -15,6 +15,7 @@ from stommel.dynamics.packing import pack, reference_water
 from stommel.errors import StommelError
 from stommel.seawater.water import Water
 from stommel.vehicle import FULL, Physics, Vehicle
+from stommel.vehicle.missing_table import missing_table
 
 Array = NDArray[np.float64]
 
@@ -40,7 +41,10 @@ def flight_table(vehicle: Vehicle, *, physics: Physics = FULL, water: Water | No
     """
     engine = vehicle.description.actuators.buoyancy
     if engine is None:
-        raise StommelError(f"{vehicle.name}: a flight table needs the table [actuators.buoyancy] with volume_ml")
+        raise StommelError(
+            f"{vehicle.name}: a flight table needs the table [actuators.buoyancy] with volume_ml; "
+            f"{missing_table('actuators.buoyancy')}"
+        )
     water = water or reference_water(vehicle)
     record = pack(vehicle, physics)
     most = max(abs(end) for end in engine.volume_m3)

@@ -4,6 +4,7 @@ from math import isfinite
 
 from stommel.errors import StommelError
 from stommel.vehicle import Vehicle
+from stommel.vehicle.missing_table import missing_table
 
 
 class RequestError(StommelError):
@@ -31,4 +32,7 @@ def check_roll(vehicle: Vehicle) -> None:
     if d.moving_mass.offset_m == 0.0:
         raise RequestError(f"{vehicle.name} cannot roll its moving mass: moving_mass.offset_m is 0")
     if d.actuators.roll is None:
-        raise RequestError(f"{vehicle.name} cannot roll its moving mass; its file has no table [actuators.roll]")
+        raise RequestError(
+            f"{vehicle.name} cannot roll its moving mass; its file has no table [actuators.roll]; "
+            f"{missing_table('actuators.roll')}"
+        )

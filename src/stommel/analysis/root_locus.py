@@ -18,6 +18,7 @@ from stommel.analysis.trim import trim
 from stommel.errors import StommelError
 from stommel.files.units import unit_of
 from stommel.vehicle import PAPER, Physics, Vehicle
+from stommel.vehicle.missing_table import missing_table
 
 POSITIONS = {
     "wing_position": "wing.aerodynamic_centre_aft_m",
@@ -146,8 +147,12 @@ def _field(vehicle: Vehicle, over: str) -> tuple[str, float, str]:
         return over, 1.0, unit_of(over) or ""
     key = POSITIONS[over]
     table = key.split(".", 1)[0]
-    if vehicle.description.hull is None or getattr(vehicle.description, table) is None:
-        raise RequestError(f"{over}: {vehicle.name} has no table [hull] or no table [{table}], which it needs")
+    for needed in ("hull", table):
+        if getattr(vehicle.description, needed) is None:
+            raise RequestError(
+                f"{over}: {vehicle.name} has no table [{needed}], which it needs; {missing_table(needed)}"
+            )
+    assert vehicle.description.hull is not None
     return key, vehicle.description.hull.length_m, "hull lengths"
 
 

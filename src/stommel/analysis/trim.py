@@ -22,6 +22,7 @@ from stommel.analysis.wings_level import TOO_SHALLOW, flight_of_settings, trim_i
 from stommel.dynamics.packing import pack, reference_water
 from stommel.seawater.water import Water
 from stommel.vehicle import PAPER, Physics, Vehicle
+from stommel.vehicle.missing_table import missing_table
 
 
 def trim(
@@ -216,6 +217,6 @@ def _unreachable(wanted: str, broken: tuple[Excess, ...], nearest: SteadyFlight 
 def _check_steering(vehicle: Vehicle, rudder_deg: float, roll_mass_deg: float) -> None:
     d = vehicle.description
     if rudder_deg and d.rudder is None:
-        raise RequestError(f"{vehicle.name} has no rudder; its file has no table [rudder]")
+        raise RequestError(f"{vehicle.name} has no rudder; its file has no table [rudder]; {missing_table('rudder')}")
     if roll_mass_deg:
         check_roll(vehicle)

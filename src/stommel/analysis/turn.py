@@ -15,6 +15,7 @@ from stommel.analysis.turning import turn_into
 from stommel.dynamics.packing import pack, reference_water
 from stommel.seawater.water import Water
 from stommel.vehicle import PAPER, Physics, Vehicle
+from stommel.vehicle.missing_table import missing_table
 
 Steering = Literal["rudder", "roll"]
 
@@ -130,7 +131,7 @@ def _steering(vehicle: Vehicle, by: Steering | None) -> int:
     if by is None:
         by = "rudder" if d.rudder is not None else "roll"
     if by == "rudder" and d.rudder is None:
-        raise RequestError(f"{vehicle.name} has no rudder; its file has no table [rudder]")
+        raise RequestError(f"{vehicle.name} has no rudder; its file has no table [rudder]; {missing_table('rudder')}")
     if by == "roll":
         check_roll(vehicle)
     return DELTA_R if by == "rudder" else MU

@@ -8,6 +8,7 @@ from stommel.bench.failures import BenchRequestError
 from stommel.machinery.engine.reduction import engine_parameters
 from stommel.machinery.engine.steady_state import EngineParameters
 from stommel.vehicle import Vehicle
+from stommel.vehicle.missing_table import missing_table
 
 
 def bench_engine(vehicle: Vehicle) -> EngineParameters:
@@ -22,7 +23,9 @@ def bench_engine(vehicle: Vehicle) -> EngineParameters:
     """
     engine = vehicle.description.engine
     if engine is None:
-        raise BenchRequestError(f"{vehicle.name}: its file has no [engine]; the bench tests need one")
+        raise BenchRequestError(
+            f"{vehicle.name}: its file has no table [engine]; the bench tests need one; {missing_table('engine')}"
+        )
     if engine.bladders[0].stiffness_mpa_ml > 0.0:
         raise BenchRequestError(f"{vehicle.name}: the bench tests know a limp bladder only, stiffness_mpa_ml = 0")
     return replace(engine_parameters(engine), reservoir_pressure_pa=0.0)

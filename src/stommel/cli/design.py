@@ -10,9 +10,11 @@ from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption, PhysicsChoice, PhysicsOption, VehicleArgument, load, physics_of
 from stommel.cli.output import show_notes, show_table, show_values
 from stommel.cli.paths import file_parser
+from stommel.cli.vehicle_check import show_vehicle_check
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
+    from stommel.design.specification import SpecificationRow
     from stommel.design.study import DesignStudy
 
 
@@ -70,7 +72,7 @@ def _show(study: "DesignStudy") -> None:
             [
                 row.name,
                 _with_unit(f"{row.required:g}", row.unit),
-                "-" if row.found is None else _with_unit(f"{row.found:.4g}", row.unit),
+                _found(row),
                 {True: "met", False: "NOT MET", None: "not known"}[row.met],
             ]
             for row in study.specification
@@ -81,13 +83,23 @@ def _show(study: "DesignStudy") -> None:
         for mode in (*study.modes.longitudinal, *(study.modes.lateral or ()))
         if mode.eigenvalue.imag >= 0.0
     ]
+    show_notes((f"{row.name}: {row.how}" for row in study.specification if row.found is None), "note")
     flight = study.design_flight
     title = f"Modes at {flight.V:g} m/s, pitch {degrees(flight.theta):g} deg"
     show_table(title, ["mode", "real\n1/s", "imaginary\n1/s", "time to half\ns"], rows)
+    show_notes((f"this flight {excess}" for excess in study.design_flight_excesses), "note")
     show_notes(study.notes, "note")
+    show_vehicle_check(study.check.as_row())
     if study.unanswered:
         parts = ", ".join(part for part, _ in study.unanswered)
         show_notes([f"{parts}: the report and --json say why"], "not answered")
+
+
+def _found(row: "SpecificationRow") -> str:
+    """What the vehicle has; "none" where it was looked for and there is none."""
+    if row.found is not None:
+        return _with_unit(f"{row.found:.4g}", row.unit)
+    return "none" if row.met is False else "-"
 
 
 def _with_unit(text: str, unit: str) -> str:
@@ -108,7 +120,9 @@ def _verdict(study: "DesignStudy") -> dict[str, str]:
     if study.best is not None:
         best, fast = study.best.best_glide, study.best.fastest
         values["best glide"] = f"{best.glide_ratio:.2f} : 1 on a path of {degrees(best.gamma):.1f} deg"
+        values["best glide"] += "".join(f"; {remark}" for remark in study.best.glide_remarks)
         values["fastest over ground"] = f"{fast.horizontal_speed:.3f} m/s at pitch {degrees(fast.theta):.1f} deg"
+        values["fastest over ground"] += "".join(f"; {remark}" for remark in study.best.fastest_remarks)
     values["stability"] = "every mode dies out" if study.modes.stable else "a mode grows: see the table of modes"
     if study.turns:
         tightest = study.turns[-1]

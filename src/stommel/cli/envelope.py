@@ -113,11 +113,16 @@ def _show_best(best: "BestConditions") -> None:
         "Best conditions at full ballast, diving",
         {
             "best glide": f"{glide.glide_ratio:.2f} m forward per m down, path {degrees(glide.gamma):.2f} deg, "
-            f"pitch {degrees(glide.theta):.2f} deg",
+            f"pitch {degrees(glide.theta):.2f} deg{_limits(best.glide_remarks)}",
             "fastest": f"{fast.horizontal_speed:.3f} m/s over ground, speed {fast.V:.3f} m/s, "
-            f"pitch {degrees(fast.theta):.2f} deg",
+            f"pitch {degrees(fast.theta):.2f} deg{_limits(best.fastest_remarks)}",
         },
     )
+
+
+def _limits(remarks: tuple[str, ...]) -> str:
+    """What a best flight is limited by, or breaks."""
+    return "".join(f"; {remark}" for remark in remarks)
 
 
 def _show_needs(needs: "RangesNeeded") -> None:
@@ -128,4 +133,9 @@ def _show_needs(needs: "RangesNeeded") -> None:
             "moving mass": f"±{needs.moving_mass_mm:.1f} mm about neutral; choose ±{travel:g} mm",
             "ballast": f"±{needs.ballast_ml:.1f} ml; choose ±{volume:g} ml",
         },
+        [
+            "beyond the stall angle, out of reach of any range: "
+            f"{flight.V:g} m/s at pitch {degrees(flight.theta):.1f} deg"
+            for flight in needs.stalled
+        ],
     )

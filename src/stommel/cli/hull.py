@@ -30,6 +30,12 @@ def hull(
     wall: Annotated[
         float | None, number_option("--wall", 0.1, 200, "mm", "Wall to judge instead of the one that is needed")
     ] = None,
+    knock_down: Annotated[
+        float | None,
+        number_option(
+            "--knock-down", 0.1, 1, "", "Share of a perfect tube's buckling pressure that is left; the file's"
+        ),
+    ] = None,
     materials_file: Annotated[Path | None, typer.Option("--materials", help="TOML file of further materials.")] = None,
     plot: PlotOption = None,
     as_json: JsonOption = False,
@@ -42,7 +48,7 @@ def hull(
 
     study = hull_study(
         load(vehicle), materials=material, depth_m=depth, pressure_mpa=pressure, wall_mm=wall,
-        materials_file=materials_file,
+        knock_down=knock_down, materials_file=materials_file,
     )  # fmt: skip
     written = []
     if plot is not None:
@@ -73,31 +79,39 @@ def _show_materials(study: "HullStudy") -> None:
     rows = []
     for ranking in study.ranking:
         row = ranking.hull.as_row()
-        thin = ranking.hull.tube.delta < ranking.hull.exact_wall - 1e-9
         rows.append(
             [
                 str(ranking.place),
                 row["name"],
                 number(row["yield_wall_mm"], 1),
                 number(row["circumferential_wall_mm"], 2),
-                number(row["wall_mm"], 1) + ("!" if thin else "" if row["fits"] else "*"),
+                number(row["wall_mm"], 1) + _mark(ranking.hull),
                 number(row["axial_critical_stress_mpa"], 1),
                 number(row["mass_kg"], 1),
                 number(row["collapse_depth_m"], 0),
                 number(ranking.score, 3),
             ]
         )
-    notes = []
-    if any("*" in row[4] for row in rows):
-        notes.append("* leaves less than the inner diameter that the file wants")
-    if any("!" in row[4] for row in rows):
-        notes.append("! thinner than its own criteria need")
+    notes = [words for mark, words in _MARKS.items() if any(mark in row[4] for row in rows)]
     show_table(
         f"{study.vehicle.name}: pressure hull for {need.P / 1e6:.4g} MPa, {need.depth:.4g} m",
         ["#", "material", "yield\nmm", "buckl.\nmm", "wall\nmm", "axial\nMPa", "mass\nkg", "collapse\nm", "score"],
         rows,
         notes,
     )
+
+
+_MARKS = {
+    "!": "! fails a criterion at the checked length; the reasons below name it",
+    "+": "+ thicker than Eqs. (8) to (10) ask, for a criterion that the reasons below name",
+    "*": "* leaves less than the inner diameter that the file wants",
+}
+
+
+def _mark(hull: "SizedHull") -> str:
+    """What to know of the wall at a glance."""
+    thin = bool(hull.failed) or hull.tube.delta < hull.exact_wall - 1e-9
+    return ("!" if thin else "+" if hull.raised_for else "") + ("" if hull.fits else "*")
 
 
 def _show_criteria(hull: "SizedHull", own: bool) -> None:

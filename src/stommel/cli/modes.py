@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+from stommel.cli.design_flight import design_pitch, design_speed
 from stommel.cli.finish import finish
 from stommel.cli.options import (
     JsonOption,
@@ -23,8 +24,8 @@ if TYPE_CHECKING:
 @one_question()
 def modes(
     vehicle: VehicleArgument,
-    speed: SpeedOption,
-    pitch: PitchOption,
+    speed: SpeedOption = None,
+    pitch: PitchOption = None,
     physics: PhysicsOption = PhysicsChoice.paper,
     as_json: JsonOption = False,
 ) -> None:
@@ -37,7 +38,8 @@ def modes(
 
     glider = load(vehicle)
     switches = physics_of(physics)
-    flight = trim(glider, speed_m_s=speed, pitch_deg=pitch, physics=switches)
+    V, theta = design_speed(glider, speed), design_pitch(glider, pitch)
+    flight = trim(glider, speed_m_s=V, pitch_deg=theta, physics=switches)
     linear = linearise(glider, flight, physics=switches)
     found, able = find_modes(linear), authority(linear)
     answer = found.as_row() | linear.as_row() | {"authority": able.as_row(), "flight": flight.as_row()}

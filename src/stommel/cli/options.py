@@ -40,8 +40,12 @@ PhysicsOption = Annotated[
     PhysicsChoice,
     typer.Option("--physics", help="The paper's model, or all that the vehicle file adds to it (bladder, oil, stall)."),
 ]
-SpeedOption = Annotated[float, number_option("--speed", *SPEEDS, "m/s", "Speed along the path")]
-PitchOption = Annotated[float, number_option("--pitch", *ANGLES, "deg", "Pitch; negative dives")]
+SpeedOption = Annotated[
+    float | None, number_option("--speed", *SPEEDS, "m/s", "Speed along the path; the specification's if left out")
+]
+PitchOption = Annotated[
+    float | None, number_option("--pitch", *ANGLES, "deg", "Pitch; negative dives; the specification's if left out")
+]
 IgnoreLimitsOption = Annotated[bool, typer.Option("--ignore-limits", help="Answer even beyond the actuators' limits.")]
 ForceOption = Annotated[bool, typer.Option("--force", help="Replace an existing file.")]
 

@@ -4,14 +4,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stommel.cli.design_flight import design_pitch, design_speed
 from stommel.cli.finish import finish
 from stommel.cli.numbers import count_option, number_option
 from stommel.cli.options import (
-    ANGLES,
-    SPEEDS,
     JsonOption,
     PhysicsChoice,
     PhysicsOption,
+    PitchOption,
+    SpeedOption,
     VehicleArgument,
     load,
     physics_of,
@@ -42,8 +43,8 @@ def root_locus(
     start: Annotated[float, number_option("--from", *VALUES, "", "First value")],
     stop: Annotated[float, number_option("--to", *VALUES, "", "Last value")],
     points: Annotated[int, count_option("--points", 2, 2000, "How many values")] = 41,
-    speed: Annotated[float, number_option("--speed", *SPEEDS, "m/s", "Speed along the path")] = 0.4,
-    pitch: Annotated[float, number_option("--pitch", *ANGLES, "deg", "Pitch; negative dives")] = -35.0,
+    speed: SpeedOption = None,
+    pitch: PitchOption = None,
     physics: PhysicsOption = PhysicsChoice.paper,
     plot: PlotOption = None,
     as_json: JsonOption = False,
@@ -56,8 +57,9 @@ def root_locus(
 
     glider = load(vehicle)
     locus = follow(
-        glider, over, start, stop, points=points, speed_m_s=speed, pitch_deg=pitch, physics=physics_of(physics)
-    )
+        glider, over, start, stop, points=points, speed_m_s=design_speed(glider, speed),
+        pitch_deg=design_pitch(glider, pitch), physics=physics_of(physics),
+    )  # fmt: skip
     written = []
     if plot is not None:
         from stommel.figures.saving import save_figure_as

@@ -14,6 +14,7 @@ from stommel.cli.options import JsonOption
 from stommel.cli.output import number, show_notes, show_table, show_values, show_warnings
 from stommel.cli.paths import PlotsOption, file_parser, refuse_same
 from stommel.cli.status import INTERRUPTED
+from stommel.cli.vehicle_check import show_vehicle_check, vehicle_check
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
@@ -79,6 +80,7 @@ def simulate(
     with _interruptible("before the end of the mission; nothing was written"):
         flown, seconds = _fly(loaded, speed_up)
     row = summary(flown)
+    row["vehicle_check"] = vehicle_check(loaded.vehicle)
     row["warnings"] = [warning.as_row() for warning in remarks(loaded)]
     row["flight_s"] = seconds
     row["speed_up"] = None if seconds is None else row["days"] * 86400.0 / seconds
@@ -220,6 +222,7 @@ def _show(row: dict[str, Any]) -> None:
         _show_waypoints(row["waypoints"])
     if row["energy_wh"] is not None:
         _show_energy(row["energy_wh"])
+    show_vehicle_check(row["vehicle_check"])
 
 
 def _distances(row: dict[str, Any]) -> str:

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -14,6 +14,7 @@ from stommel.cli.options import JsonOption
 from stommel.cli.output import show_table
 from stommel.cli.paths import PlotsOption, parser_with, refuse_same
 from stommel.cli.status import INTERRUPTED
+from stommel.cli.vehicle_check import show_vehicle_check, vehicle_check
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
@@ -81,7 +82,10 @@ def study(
         from stommel.studies.pictures import save_study_pictures
 
         written += save_study_pictures(done, plots)
-    finish(done, written, as_json, _show)
+    # a study whose runs name a vehicle each has none of its own
+    found = None if loaded.kit.vehicle is None else vehicle_check(loaded.kit.vehicle)
+    answer = done.as_json() | {"vehicle_check": found}
+    finish(answer, written, as_json, lambda _: _show(done, found))
 
 
 @contextmanager
@@ -111,7 +115,7 @@ def _progress() -> Iterator[Callable[[int, int], None]]:
         yield lambda finished, runs: bar.update(task, completed=finished, total=runs)
 
 
-def _show(done: "Finished") -> None:
+def _show(done: "Finished", found: dict[str, Any] | None) -> None:
     runs = len(done.study.values)
     title = f"{done.study.file.name}: {done.study.file.kind} study of {counted(runs, 'mission')}"
     notes = [f"{counted(count, 'run')} could not be flown: {reason}" for reason, count in _reasons(done).most_common(5)]
@@ -123,6 +127,7 @@ def _show(done: "Finished") -> None:
     _show_combinations(done)
     _show_sensitivity(done)
     typer.echo(f"{counted(done.flown, 'run')} flown, {done.kept} kept from before")
+    show_vehicle_check(found)
 
 
 def _show_combinations(done: "Finished") -> None:

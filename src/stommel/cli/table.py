@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from stommel.cli.design_flight import design_pitch, design_speed
 from stommel.cli.finish import finish
 from stommel.cli.numbers import MOST, NumberError, numbers
 from stommel.cli.options import (
@@ -26,8 +27,14 @@ if TYPE_CHECKING:
 @one_question()
 def table(
     vehicle: VehicleArgument,
-    speed: Annotated[str, typer.Option("--speed", help="Speeds [m/s]: 0.4, or 0.2,0.4, or 0.1:0.8:0.1.")],
-    pitch: Annotated[str, typer.Option("--pitch", help="Pitches [deg]: -35, or -20,-35, or -5:-60:-5.")],
+    speed: Annotated[
+        str | None,
+        typer.Option("--speed", help="Speeds [m/s]: 0.4, or 0.2,0.4, or 0.1:0.8:0.1; the specification's design one."),
+    ] = None,
+    pitch: Annotated[
+        str | None,
+        typer.Option("--pitch", help="Pitches [deg]: -35, or -20,-35, or -5:-60:-5; the specification's, diving."),
+    ] = None,
     physics: PhysicsOption = PhysicsChoice.paper,
     as_json: JsonOption = False,
 ) -> None:
@@ -35,12 +42,13 @@ def table(
 
     Example: stommel table zju --speed 0.4 --pitch -5:-60:-5
     """
-    speeds, pitches = numbers(speed, "--speed", SPEEDS, "m/s"), numbers(pitch, "--pitch", ANGLES, "deg")
+    glider = load(vehicle)
+    speeds = numbers(speed, "--speed", SPEEDS, "m/s") if speed is not None else [design_speed(glider, None)]
+    pitches = numbers(pitch, "--pitch", ANGLES, "deg") if pitch is not None else [design_pitch(glider, None)]
     if len(speeds) * len(pitches) > MOST:
         raise NumberError(f"{len(speeds)} speeds by {len(pitches)} pitches; at most {MOST} rows are allowed")
     from stommel.analysis.trim import trim_table
 
-    glider = load(vehicle)
     rows = trim_table(glider, speeds_m_s=speeds, pitches_deg=pitches, physics=physics_of(physics))
     finish({"rows": [row.as_row() for row in rows]}, None, as_json, lambda _: _show(glider.name, rows))
 

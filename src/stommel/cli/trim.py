@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, Annotated
 
+from stommel.cli.design_flight import design_pitch, design_speed
 from stommel.cli.finish import finish
 from stommel.cli.numbers import number_option
 from stommel.cli.options import (
@@ -10,6 +11,7 @@ from stommel.cli.options import (
     JsonOption,
     PhysicsChoice,
     PhysicsOption,
+    PitchOption,
     SpeedOption,
     VehicleArgument,
     load,
@@ -25,8 +27,8 @@ if TYPE_CHECKING:
 @one_question()
 def trim(
     vehicle: VehicleArgument,
-    speed: SpeedOption,
-    pitch: Annotated[float | None, number_option("--pitch", *ANGLES, "deg", "Pitch; negative dives")] = None,
+    speed: SpeedOption = None,
+    pitch: PitchOption = None,
     glide_path: Annotated[
         float | None, number_option("--glide-path", *ANGLES, "deg", "Angle of the path instead of the pitch")
     ] = None,
@@ -43,8 +45,8 @@ def trim(
     glider = load(vehicle)
     flight = solve(
         glider,
-        speed_m_s=speed,
-        pitch_deg=pitch,
+        speed_m_s=design_speed(glider, speed),
+        pitch_deg=pitch if glide_path is not None else design_pitch(glider, pitch),
         glide_path_deg=glide_path,
         physics=physics_of(physics),
         within_limits=not ignore_limits,

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from stommel.cli.design_flight import design_pitch, design_speed
 from stommel.cli.numbers import number_option
 from stommel.cli.options import (
     IgnoreLimitsOption,
@@ -31,8 +32,8 @@ class SteeringChoice(StrEnum):
 @one_question()
 def turn(
     vehicle: VehicleArgument,
-    speed: SpeedOption,
-    pitch: PitchOption,
+    speed: SpeedOption = None,
+    pitch: PitchOption = None,
     turn_rate: Annotated[
         float | None, number_option("--turn-rate", -5, 5, "rad/s", "Turn rate; positive turns to starboard")
     ] = None,
@@ -56,8 +57,8 @@ def turn(
     glider = load(vehicle)
     flight = solve(
         glider,
-        speed_m_s=speed,
-        pitch_deg=pitch,
+        speed_m_s=design_speed(glider, speed),
+        pitch_deg=design_pitch(glider, pitch),
         turn_rate_rad_s=turn_rate,
         radius_m=radius,
         by=by.value if by is not None else None,

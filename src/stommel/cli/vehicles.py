@@ -7,7 +7,7 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import ForceOption, JsonOption, VehicleArgument, load
-from stommel.cli.output import number, show_entries, show_notes, show_table, show_values, show_warnings
+from stommel.cli.output import number, show_entries, show_notes, show_table, show_values
 from stommel.cli.paths import file_parser, refuse_existing
 from stommel.files.units import counted
 
@@ -80,11 +80,15 @@ def _origin_in_words(row: dict[str, Any]) -> str:
 
 @vehicle_app.command("check")
 def check(vehicle: VehicleArgument, as_json: JsonOption = False) -> None:
-    """Check a vehicle file; every problem is one line with the key and what is allowed."""
+    """Check a vehicle file, and hold its numbers against each other: errors, warnings, and what is unknown.
+
+    A file that is no possible vehicle is refused, each problem in a line with the key and what is allowed.
+    """
+    from stommel.design.checking import cross_check
     from stommel.vehicle import stated_numbers
-    from stommel.vehicle.plausible import implausible
 
     glider = load(vehicle)
+    found = cross_check(glider)
     d = glider.description
     kinds = [origin.kind for _, _, origin in stated_numbers(glider)]
     missing = list(d.unknown_lateral())
@@ -97,15 +101,16 @@ def check(vehicle: VehicleArgument, as_json: JsonOption = False) -> None:
         "assumptions": kinds.count("assumption"),
         "not_stated": kinds.count("not stated"),
         "unknown_lateral": missing,
-        "warnings": [sentence for _, sentence in implausible(d)],
+        "errors": [finding.as_row() for finding in found.errors],
+        "warnings": [finding.as_row() for finding in found.warnings],
     }
     finish(summary, None, as_json, _show_check)
 
 
 def _show_check(summary: dict[str, Any]) -> None:
-    missing = summary["unknown_lateral"]
+    missing, errors, warnings = summary["unknown_lateral"], summary["errors"], summary["warnings"]
     show_values(
-        f"{summary['name']}: the file is sound",
+        f"{summary['name']}: {counted(len(errors), 'error')}, {counted(len(warnings), 'warning')}",
         {
             "mass": number(summary["mass_kg"], 2, "kg"),
             "numbers": f"{summary['numbers']}: {summary['sourced']} with a source, {summary['derived']} derived, "
@@ -113,34 +118,62 @@ def _show_check(summary: dict[str, Any]) -> None:
             "planes": f"vertical only; missing {', '.join(missing)}" if missing else "vertical and lateral",
         },
     )
-    show_warnings(summary["warnings"])
+    for label, found in (("error", errors), ("warning", warnings)):
+        show_notes((f"{finding['name']}: {finding['message']}" for finding in found), label)
+
+
+_FILE = file_parser("FILE", ".toml")
+
+
+def _new_file(text: str) -> Path:
+    """A bare name stands for a file of that name in this folder."""
+    bare = text.strip() and not set(text) & {".", "/", "\\"} and not Path(text).exists()
+    return _FILE(f"{text}.toml" if bare else text)
 
 
 @vehicle_app.command("new")
 def new(
     path: Annotated[
         Path,
-        typer.Argument(
-            metavar="FILE", parser=file_parser("FILE", ".toml"), help="The file to write, for example myglider.toml."
-        ),
+        typer.Argument(metavar="FILE", parser=_new_file, help="The file to write: myglider, or path/to/myglider.toml."),
     ],
-    like: Annotated[str, typer.Option("--from", help="Built-in vehicle to begin from.")] = "zju",
+    like: Annotated[
+        str, typer.Option("--from", metavar="VEHICLE", help="Vehicle to begin from, a built-in one or a file.")
+    ] = "zju",
+    sections: Annotated[
+        str | None,
+        typer.Option(
+            "--with",
+            metavar="SECTIONS",
+            help="Further sections, with commas between: hull, engine, drives, battery, parts, antenna. "
+            "A file that is there already gets them at its end.",
+        ),
+    ] = None,
     force: ForceOption = False,
     as_json: JsonOption = False,
 ) -> None:
-    """Begin a vehicle file from a built-in one."""
-    from stommel.files.whole import write_whole
-    from stommel.vehicle import UnknownVehicleError, builtin_names, builtin_text
+    """Begin a vehicle file: short, commented, every number an assumption copied from another vehicle.
 
-    if like not in builtin_names():
-        raise UnknownVehicleError(
-            f"--from {like}: no built-in vehicle of this name; there are {', '.join(builtin_names())}"
-        )
-    refuse_existing(path, force)
-    write_whole(path, builtin_text(like))
-    finish(
-        {"from": like},
-        [path],
-        as_json,
-        lambda _: typer.echo(f"a copy of {like}: edit it, then run: stommel vehicle check {path}"),
-    )
+    Example: stommel vehicle new myglider --from zju --with hull,engine
+    """
+    from stommel.files.whole import write_whole
+    from stommel.vehicle.lean_file import begun_from, lean_text, sections_of, with_sections
+
+    asked = sections_of(sections) if sections is not None else ()
+    source, called = begun_from(like)
+    adds = bool(asked) and path.exists() and not force
+    if adds:
+        from stommel.vehicle import vehicle_text
+
+        text = with_sections(vehicle_text(path), str(path), source, called, asked)
+    else:
+        refuse_existing(path, force)
+        text = lean_text(path.stem, source, called, asked)
+    write_whole(path, text)
+    answer = {"from": like, "sections": list(asked), "added": adds}
+    finish(answer, [path], as_json, lambda _: _show_new(path, called, asked if adds else ()))
+
+
+def _show_new(path: Path, called: str, added: tuple[str, ...]) -> None:
+    what = f"added {', '.join(added)}" if added else "begun"
+    typer.echo(f"{what} with numbers copied from {called}: edit it, then run: stommel vehicle check {path}")

@@ -16,7 +16,7 @@ class SpecificationRow:
     unit: str
     required: float
     found: float | None
-    """None where nothing in the file answers."""
+    """None where nothing in the file answers, and where there is none, which does not meet the requirement."""
     met: bool | None
     """None where it cannot be told."""
     how: str
@@ -47,10 +47,11 @@ def specification_check(vehicle: Vehicle, physics: Physics) -> tuple[Specificati
     at_most("Mass", "kg", spec.mass_kg, d.mass_kg, "sum of rigid body, moving mass and ballast")
     at_least("Oil volume", "ml", spec.oil_volume_ml, volume, "range of actuators.buoyancy.volume_ml")
     at_least("Depth", "m", spec.depth_m, hull.depth_rating_m if hull else None, "hull.depth_rating_m")
-    at_least("Pitch, diving", "deg", spec.pitch_deg, _steepest(vehicle, -1.0, physics), "steepest reachable dive")
-    at_least("Pitch, climbing", "deg", spec.pitch_deg, _steepest(vehicle, +1.0, physics), "steepest reachable climb")
+    for name, side, word in (("Pitch, diving", -1.0, "dive"), ("Pitch, climbing", +1.0, "climb")):
+        rows.append(_searched(name, "deg", spec.pitch_deg, *_steepest(vehicle, side, word, physics)))
     at_least("Rudder", "deg", spec.rudder_deg, rudder.travel_deg if rudder else None, "actuators.rudder.travel_deg")
-    at_least("Speed", "m/s", spec.speed_m_s, _greatest_speed(vehicle, physics), "fastest at the design pitch")
+    if spec.speed_m_s is not None:
+        rows.append(_searched("Speed", "m/s", spec.speed_m_s, *_greatest_speed(vehicle, physics)))
     at_least("Endurance", "days", spec.endurance_days, *_endurance(vehicle, physics))
     return tuple(rows)
 
@@ -60,11 +61,21 @@ def _compare(found: float | None, required: float, sign: int) -> bool | None:
     return None if found is None else sign * (found - required) >= -slack
 
 
-def _steepest(vehicle: Vehicle, sign: float, physics: Physics) -> float | None:
-    """Steepest pitch magnitude [deg] within the limits at the design speed; zero if there is none."""
+_Found = tuple[float | None, bool, str]
+"""What a search found, whether it could be made at all, and where the number comes from or why there is none."""
+
+
+def _searched(name: str, unit: str, required: float, found: float | None, asked: bool, how: str) -> SpecificationRow:
+    """A requirement that a search answers: one that finds nothing is not met."""
+    met = False if asked and found is None else _compare(found, required, +1)
+    return SpecificationRow(name, unit, required, found, met, how)
+
+
+def _steepest(vehicle: Vehicle, sign: float, word: str, physics: Physics) -> _Found:
+    """Steepest pitch magnitude [deg] within the limits at the design speed."""
     spec = vehicle.description.specification
     if spec is None or spec.design_speed_m_s is None:
-        return None
+        return None, False, "needs specification.design_speed_m_s"
 
     def works(pitch: float) -> bool:
         try:
@@ -77,21 +88,28 @@ def _steepest(vehicle: Vehicle, sign: float, physics: Physics) -> float | None:
     grid = [float(pitch) for pitch in range(1, 90)]
     reached = [pitch for pitch in grid if works(pitch)]
     if not reached:
-        return 0.0
+        return None, True, f"no {word} at {speed:g} m/s is within the limits of the file"
     low = max(reached)
     high = low + 1.0
     while high - low > 1e-3:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if works(middle) else (low, middle)
-    return low
+    return low, True, f"steepest reachable {word}"
 
 
-def _greatest_speed(vehicle: Vehicle, physics: Physics) -> float | None:
+def _greatest_speed(vehicle: Vehicle, physics: Physics) -> _Found:
+    """Greatest speed [m/s] within the limits, diving at the design pitch."""
     spec = vehicle.description.specification
     if spec is None or spec.design_pitch_deg is None or vehicle.description.actuators.buoyancy is None:
-        return None
+        return None, False, "needs specification.design_pitch_deg and the table [actuators.buoyancy]"
     (row,) = flight_envelope(vehicle, pitches_deg=[-spec.design_pitch_deg], physics=physics)
-    return row.fastest.V if row.fastest else 0.0
+    if row.fastest is None:
+        return (
+            None,
+            True,
+            f"no dive at -{spec.design_pitch_deg:g} deg is within the limits of the file: {row.limited_by}",
+        )
+    return row.fastest.V, True, "fastest at the design pitch"
 
 
 def _endurance(vehicle: Vehicle, physics: Physics) -> tuple[float | None, str]:

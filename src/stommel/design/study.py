@@ -35,8 +35,10 @@ from stommel.analysis import (
     trim_table,
     turn,
 )
+from stommel.analysis.limits import Excess, excesses
 from stommel.bench.speed_study import SpeedStudy, speed_study
 from stommel.design.budget import BudgetStudy, budget_study
+from stommel.design.checking import CrossCheck, cross_check
 from stommel.design.drives import DriveStudy, drive_study
 from stommel.design.endurance import EnergyStudy, energy_study
 from stommel.design.engine.study import EngineStudy, engine_study
@@ -113,6 +115,8 @@ class DesignStudy:
     """Drives of moving mass and rudder."""
     budget: BudgetStudy | None
     """Masses and volumes of the parts, in the reference water."""
+    check: CrossCheck
+    """What the numbers of the file say against each other."""
     numbers: tuple[tuple[str, object, Provenance], ...]
     """Every number of the vehicle file with its origin."""
     notes: tuple[str, ...]
@@ -120,10 +124,17 @@ class DesignStudy:
     unanswered: tuple[tuple[str, str], ...]
     """Parts of this study that could not be answered, each with the reason."""
 
+    @property
+    def design_flight_excesses(self) -> tuple[Excess, ...]:
+        """Limits of the file that the design flight breaks: modes and loci are about it all the same."""
+        return excesses(self.vehicle, self.design_flight)
+
     def as_json(self) -> dict[str, Any]:
         """What `stommel design` answers, in words with units; its other parts have verbs of their own."""
         return {
             "vehicle": self.vehicle.name,
+            "design_flight": self.design_flight.as_row()
+            | {"beyond": [str(excess) for excess in self.design_flight_excesses]},
             "specification": [asdict(row) for row in self.specification],
             "tables": [{"title": table.title, "rows": [row.as_row() for row in table.rows]} for table in self.tables],
             "envelope": None if self.envelope is None else [row.as_row() for row in self.envelope],
@@ -132,6 +143,7 @@ class DesignStudy:
             **self.modes.as_row(),
             "authority": self.authority.as_row(),
             "turns": [flight.as_turn() for flight in self.turns],
+            "vehicle_check": self.check.as_row(),
             "notes": list(self.notes),
             "unanswered": dict(self.unanswered),
         }
@@ -223,6 +235,7 @@ def design_study(vehicle: Vehicle, *, physics: Physics = PAPER, progress: Progre
         motor_speed=motor_speed,
         drives=drives,
         budget=budget,
+        check=cross_check(vehicle),
         numbers=tuple(stated_numbers(vehicle)),
         notes=vehicle.description.notes,
         unanswered=tuple(interview.unanswered),

@@ -12,6 +12,7 @@ from stommel.errors import FileError, Problem
 from stommel.files.kinds import OWN_WORDS
 from stommel.files.nearest import nearest
 from stommel.files.ranges import OUT_OF_RANGE, ZeroOr
+from stommel.files.table_keys import keys_of, models_in
 from stommel.files.units import unit_of
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -153,8 +154,9 @@ def _missing(detail: ErrorDetails, model: type[BaseModel]) -> str:
     if isinstance(name, int):
         return f"{dotted(parents)} = {shown(detail['input'])}: the list is too short"
     field = _fields(_table_at(parents, model)).get(name)
-    if field is not None and _models_in(field.annotation):
-        return f"the table [{key}] is missing"
+    inside = models_in(field.annotation) if field is not None else []
+    if inside:
+        return f"the table [{key}] is missing; it {keys_of(inside[0])}"
     unit = unit_of(key)
     return f"{key} is missing; add {name}{f' = <number in {unit}>' if unit else ''}"
 
@@ -185,17 +187,11 @@ def _table_at(location: Sequence[str | int], model: type[BaseModel]) -> type[Bas
     for part in location:
         if isinstance(part, int):
             continue
-        inside = _models_in(_fields(model)[part].annotation)
+        inside = models_in(_fields(model)[part].annotation)
         if not inside:
             break
         model = inside[0]
     return model
-
-
-def _models_in(annotation: Any) -> list[type[BaseModel]]:
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return [annotation]
-    return [model for argument in get_args(annotation) for model in _models_in(argument)]
 
 
 def allowed_range(location: Sequence[str | int], model: type[BaseModel]) -> str:

@@ -7,14 +7,13 @@ from shlex import quote
 from typing import Any
 
 from stommel.analysis import LinearModel, Mode
-from stommel.analysis.limits import excesses
 from stommel.design.endurance.study import MODEL_ASSUMPTIONS
 from stommel.design.study import DesignStudy
 from stommel.report import wording
 from stommel.report.figures import figures
 from stommel.report.plots import planes_of
 from stommel.report.readings import locus_heading, locus_reading
-from stommel.report.verdict import at_stall, nearest_limit, summary, verdict
+from stommel.report.verdict import nearest_limit, summary, verdict
 from stommel.vehicle import PHYSICS, Physics
 from stommel.version import __version__
 
@@ -153,10 +152,11 @@ def _best(study: DesignStudy) -> list[tuple[str, dict[str, float | None], str]]:
     if study.best is None:
         return []
     rows = []
-    for name, flight in (("Best glide", study.best.best_glide), ("Greatest horizontal speed", study.best.fastest)):
-        remarks = [str(excess) for excess in excesses(study.vehicle, flight)]
-        if at_stall(study, flight):
-            remarks.append("at the stall angle, where the model ends")
+    for name, flight, limits in (
+        ("Best glide", study.best.best_glide, study.best.glide_remarks),
+        ("Greatest horizontal speed", study.best.fastest, study.best.fastest_remarks),
+    ):
+        remarks = list(limits)
         if flight.theta > 0.0 > flight.gamma:
             remarks.append("sinks with the nose above the horizon")
         quantities = {**flight.as_turn(), "glide_ratio": flight.glide_ratio, "ballast_ml": flight.V_b * 1e6}

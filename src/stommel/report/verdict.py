@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import degrees
 from typing import Literal
 
-from stommel.analysis import EnvelopeRow, SteadyFlight
+from stommel.analysis import EnvelopeRow, RangesNeeded, SteadyFlight
 from stommel.analysis.limits import excesses
 from stommel.design.study import DesignStudy
 from stommel.report.wording import fixed, short, why_unanswered
@@ -56,6 +56,13 @@ def _unknown(study: DesignStudy, question: str, part: str) -> Answer:
     return Answer(question, "no answer", f"Because {reason}.", "unknown")
 
 
+def _stalled(needed: RangesNeeded) -> str:
+    """What no range reaches, as a sentence."""
+    if not needed.stalled:
+        return ""
+    return f" Beyond the stall angle, so out of reach of any range: {'; '.join(map(_at, needed.stalled))}."
+
+
 def _moving_mass(study: DesignStudy) -> Answer:
     question = "Moving-mass range"
     needed = study.ranges
@@ -67,6 +74,7 @@ def _moving_mass(study: DesignStudy) -> Answer:
         f"Needed: ±{fixed(needed.moving_mass_mm, 1)} mm about neutral at {short(neutral)} mm, the most for "
         f"{_at(needed.furthest)}."
     )
+    detail += _stalled(needed)
     drive = d.actuators.moving_mass
     if drive is None:
         return Answer(question, f"±{short(needed.moving_mass_choice_mm)} mm", detail, "plain")
@@ -121,22 +129,27 @@ def _speed(study: DesignStudy) -> Answer:
         f"At pitch {fixed(row.pitch_deg, 0)}°, horizontally {fixed(fastest.horizontal_speed)} m/s; limited by "
         f"{row.limited_by}."
     )
-    required = next((row for row in study.specification if row.name == "Speed" and row.found is not None), None)
+    required = next((row for row in study.specification if row.name == "Speed" and row.met is not None), None)
     if required is not None:
-        detail += f" At the design pitch: {short(required.found or 0.0, 3)} m/s; wanted {short(required.required)} m/s."
+        at_pitch = "none" if required.found is None else f"{short(required.found, 3)} m/s"
+        detail += f" At the design pitch: {at_pitch}; wanted {short(required.required)} m/s."
     tone: Tone = "plain" if required is None else "good" if required.met else "bad"
     return Answer(question, f"{fixed(fastest.V)} m/s", detail, tone)
 
 
 def _pitch(study: DesignStudy) -> Answer:
     question = "Steepest pitch"
-    rows = [row for row in study.specification if row.name.startswith("Pitch") and row.found is not None]
+    rows = [row for row in study.specification if row.name.startswith("Pitch") and row.met is not None]
     if rows:
         least = min(rows, key=lambda row: row.found or 0.0)
-        detail = "; ".join(f"{row.name.removeprefix('Pitch, ')}: {fixed(row.found or 0.0, 1)}°" for row in rows)
+        detail = "; ".join(
+            f"{row.name.removeprefix('Pitch, ')}: {'none' if row.found is None else fixed(row.found, 1) + '°'}"
+            for row in rows
+        )
         detail = f"At the design speed, {detail}; wanted ±{short(least.required)}°."
         tone: Tone = "good" if all(row.met for row in rows) else "bad"
-        return Answer(question, f"±{fixed(least.found or 0.0, 1)}°", detail, tone)
+        value = "none" if least.found is None else f"±{fixed(least.found, 1)}°"
+        return Answer(question, value, detail, tone)
     if study.envelope is None:
         return _unknown(study, question, "flight envelope")
     dive, climb = (_steepest_row(study.envelope, side) for side in (-1.0, 1.0))
@@ -159,16 +172,11 @@ def _glide(study: DesignStudy) -> Answer:
         return _unknown(study, question, "best conditions")
     flight = study.best.best_glide
     detail = f"{_at(flight)}, path {fixed(degrees(flight.gamma), 1)}°, ballast {fixed(flight.V_b * 1e6, 1)} ml."
-    if at_stall(study, flight):
-        detail += " It lies at the stall angle, where the model ends."
     beyond = excesses(study.vehicle, flight)
-    detail += "".join(f" Out of reach: {excess}." for excess in beyond)
+    broken = {str(excess) for excess in beyond}
+    for remark in study.best.glide_remarks:
+        detail += f" Out of reach: {remark}." if remark in broken else f" It lies {remark}."
     return Answer(question, f"{fixed(flight.glide_ratio, 1)} : 1", detail, "bad" if beyond else "plain")
-
-
-def at_stall(study: DesignStudy, flight: SteadyFlight) -> bool:
-    """Whether a flight lies within a tenth of a degree of the stall angle."""
-    return abs(degrees(flight.alpha)) > study.vehicle.description.hydrodynamics.stall_begins_deg - 0.1
 
 
 def _turn(study: DesignStudy) -> Answer:

@@ -9,6 +9,8 @@ from stommel.design.budget.mass_properties import Tensor3
 from stommel.design.budget.study import BudgetStudy
 from stommel.vehicle import vehicle_from_text
 
+NEVER_APPLIED = ("does_not_float", "does_not_sink", "does_not_rise")
+"""Findings with which no file is written."""
 SOURCE = "sum of [[parts]], by stommel budget"
 
 
@@ -29,16 +31,18 @@ def applied_text(study: BudgetStudy, text: str) -> str:
     Raises
     ------
     BudgetError
-        The vehicle does not float, has no rigid parts, or its added inertia is unknown in every way.
+        The vehicle does not float, sink or rise in the waters of the study, has no rigid parts, or its added inertia
+        is unknown in every way.
     FileError
         The new file would be no possible vehicle.
     """
     import tomlkit  # noqa: PLC0415 - only wanted here
 
     origin, body = study.vehicle.origin, study.budget.rigid_body
-    if not study.floats:
-        found = next(warning for warning in study.warnings if warning.name == "does_not_float")
-        raise BudgetError(f"{origin}: a budget that does not float is not applied: {found.message}")
+    stuck = next((warning for warning in study.warnings if warning.name in NEVER_APPLIED), None)
+    if stuck is not None:
+        words = stuck.name.replace("_", " ")
+        raise BudgetError(f"{origin}: a budget with which the vehicle {words} is not applied: {stuck.message}")
     if body.mass <= 0.0:
         raise BudgetError(f"{origin}: every part moves or is ballast; the rigid body would have no mass")
     document: Any = tomlkit.parse(text)

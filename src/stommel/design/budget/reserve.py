@@ -25,7 +25,7 @@ class ReserveRow:
     to_climb: float
     """What is left to rise with at the greatest depth [m3]; negative: it cannot rise."""
     dive_speed: float | None
-    """Speed at the design pitch with all of it [m/s]; 0 where there is no reserve, None where unknown."""
+    """Speed at the design pitch with all of it [m/s]; None where there is no reserve, and where unknown."""
     climb_speed: float | None
     """Likewise, upwards."""
 
@@ -146,4 +146,4 @@ def _speed(design: float | None, have: float, need: float) -> float | None:
 
     The coefficients of drag and the net weight both grow with the density, so that it does not enter.
     """
-    return None if design is None or need <= 0.0 else design * sqrt(max(have, 0.0) / need)
+    return None if design is None or need <= 0.0 or have <= 0.0 else design * sqrt(have / need)

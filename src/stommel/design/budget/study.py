@@ -13,7 +13,7 @@ from stommel.design.budget.comparison import (
     highest_lever,
 )
 from stommel.design.budget.failures import BudgetError
-from stommel.design.budget.reserve import Reserve, best_trim_density, reserve
+from stommel.design.budget.reserve import Reserve, best_trim_density, compression, reserve
 from stommel.design.budget.totals import Budget, mass_budget
 from stommel.design.budget.trimming import FOAM_DENSITY, Trimming, trimming
 from stommel.design.named_warning import NamedWarning
@@ -124,6 +124,14 @@ def _floating(vehicle: Vehicle, budget: Budget, low: float, high: float) -> Iter
             "does_not_float",
             f"the parts weigh {budget.total.mass:.3f} kg and displace {budget.volume * 1e3:.3f} l; in water of {low:g} "
             f"kg/m3 that is {heavy:.3f} kg too much even with all the ballast volume of {most * 1e6:g} ml",
+        )
+    shrinks = compression(vehicle, budget.volume, low)
+    deep = heavy + low * shrinks
+    if heavy <= 0.0 < deep:
+        yield NamedWarning(
+            "does_not_rise",
+            f"at the depth of its rating the hull has lost {shrinks * 1e6:.1f} ml; in water of {low:g} kg/m3 that is "
+            f"{deep:.3f} kg too much even with all the ballast volume of {most * 1e6:g} ml: it does not return",
         )
     light = high * (budget.volume + least) - budget.total.mass
     if light > 0.0:

@@ -8,6 +8,7 @@ import numpy as np
 from stommel.design.budget.failures import BudgetError
 from stommel.design.budget.mass_properties import MassProperties, Vector3, mass_properties
 from stommel.vehicle import Vehicle
+from stommel.vehicle.missing_table import missing_table
 from stommel.vehicle.schema.budget import Part
 
 
@@ -83,7 +84,10 @@ def mass_budget(vehicle: Vehicle) -> Budget:
     """
     d = vehicle.description
     if not d.parts:
-        raise BudgetError(f"{vehicle.origin}: has no table [[parts]], of which a budget is the sum; add the parts")
+        raise BudgetError(
+            f"{vehicle.origin}: has no table [[parts]], of which a budget is the sum; add the parts and their bays; "
+            f"{missing_table('parts')}; {missing_table('bays')}"
+        )
     volume = sum(part.volume_m3 for part in d.parts)
     if volume <= 0.0:
         raise BudgetError(

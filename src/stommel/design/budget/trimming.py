@@ -16,6 +16,7 @@ from stommel.design.budget.failures import BudgetError
 from stommel.design.budget.mass_properties import Vector3
 from stommel.design.budget.totals import Budget
 from stommel.vehicle import Vehicle
+from stommel.vehicle.missing_table import missing_table
 from stommel.vehicle.schema.budget import Part
 
 FOAM_DENSITY = 200.0
@@ -134,7 +135,10 @@ def trimming(vehicle: Vehicle, budget: Budget, rho: float, foam_density: float =
     """
     hull = vehicle.description.hull
     if hull is None:
-        raise BudgetError(f"{vehicle.origin}: has no table [hull]; its radius says where weight and foam can lie")
+        raise BudgetError(
+            f"{vehicle.origin}: has no table [hull]; its radius says where weight and foam can lie; "
+            f"{missing_table('hull')}"
+        )
     if not 0.0 < foam_density < rho:
         raise BudgetError(f"foam density = {foam_density:g} kg/m3: must be greater than 0 and less than {rho:g}")
     radius = REACH * (hull.inner_diameter_mm or hull.outer_diameter_mm) / 2e3

@@ -14,6 +14,7 @@ from stommel.machinery.drives.limit_switches import LimitSwitches, OverRun, over
 from stommel.machinery.drives.pitch import PitchDrive, PitchPoint
 from stommel.machinery.drives.rudder import RudderDrive, RudderStep, RudderTurn
 from stommel.vehicle import Vehicle
+from stommel.vehicle.missing_table import missing_table
 
 DEFAULT_SPEED_M_S, DEFAULT_PITCH_DEG, DEFAULT_STEEPEST_DEG, DEFAULT_RUDDER_DEG = 0.4, 35.0, 50.0, 30.0
 AGREEMENT = 0.02
@@ -152,7 +153,10 @@ def drive_study(
     """
     d = vehicle.description
     if d.drives is None or (d.drives.pitch is None and d.drives.rudder is None):
-        raise DriveError(f"{vehicle.origin}: has neither a table [drives.pitch] nor [drives.rudder]; add one")
+        raise DriveError(
+            f"{vehicle.origin}: has neither a table [drives.pitch] nor [drives.rudder]; add one; "
+            f"{missing_table('drives.pitch')}; {missing_table('drives.rudder')}"
+        )
     spec = d.specification
     steepest = steepest_deg if steepest_deg is not None else spec.pitch_deg if spec else DEFAULT_STEEPEST_DEG
     speed = speed_m_s if speed_m_s is not None else (spec.speed_m_s if spec else None) or DEFAULT_SPEED_M_S

@@ -6,7 +6,7 @@ from importlib import resources
 from typing import Any
 
 from stommel.design.hull.requirement import Requirement
-from stommel.design.hull.sizing import SizedHull, size
+from stommel.design.hull.sizing import SizedHull, size_by_paper
 from stommel.files.toml_reader import parse_toml
 from stommel.machinery.hull import paper_formulas
 from stommel.machinery.hull.materials import Material, find_material
@@ -59,7 +59,7 @@ class PublishedTable:
     def compared(self, need: Requirement, materials: tuple[Material, ...]) -> Iterator[ComparedQuantity]:
         """Compare every printed number with the one that `need` gives."""
         for row in self.rows:
-            yield from _compare(size(find_material(row["material"], materials), need), row)
+            yield from _compare(size_by_paper(find_material(row["material"], materials), need), row)
 
 
 def published_table(vehicle_file: str) -> PublishedTable | None:

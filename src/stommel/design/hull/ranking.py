@@ -41,7 +41,7 @@ def weights() -> dict[str, float]:
 
 
 def ranked(hulls: Sequence[SizedHull], weigh: Mapping[str, float] | None = None) -> tuple[Ranked, ...]:
-    """Rank hulls: first those whose wall fits and is thick enough, by score; then the others, by score."""
+    """Rank hulls: first those whose wall fits and meets every criterion, by score; then the others, by score."""
     weigh = weights() if weigh is None else weigh
     least_wall = min(hull.tube.delta for hull in hulls)
     least_mass = min(hull.tube.mass for hull in hulls)
@@ -63,7 +63,7 @@ def ranked(hulls: Sequence[SizedHull], weigh: Mapping[str, float] | None = None)
 
 
 def _usable(hull: SizedHull) -> bool:
-    return hull.fits and hull.tube.delta >= hull.exact_wall - 1e-9
+    return hull.fits and not hull.failed and hull.tube.delta >= hull.exact_wall - 1e-9
 
 
 def _reasons(hull: SizedHull, marks: Mapping[str, float]) -> list[str]:
@@ -74,9 +74,20 @@ def _reasons(hull: SizedHull, marks: Mapping[str, float]) -> list[str]:
         share = 1.0 / marks[name]
         words = f"least {name}" if share < 1.0 + 1e-9 else f"{name} {share:.2f} times the least"
         reasons.append(f"{words} ({quantity:.1f} {unit})")
+    if hull.failed:
+        reasons.append(f"fails {_listed(hull.failed)} at {hull.requirement.frame_length:g} m")
+    if hull.raised_for:
+        reasons.append(
+            f"raised to {hull.tube.delta * 1e3:.1f} mm: the {hull.required_wall * 1e3:.1f} mm of Eqs. (8) to (10) fail "
+            f"{_listed(hull.raised_for)} at {hull.requirement.frame_length:g} m"
+        )
     reasons += [f"corrosion: {p.corrosion}", f"machining: {p.machinability}"]
     if not hull.fits:
         reasons.append(f"its wall leaves {hull.tube.D_i * 1e3:.1f} mm inside, less than the file wants")
     if p.remark:
         reasons.append(p.remark)
     return reasons
+
+
+def _listed(criteria: Sequence[str]) -> str:
+    return " and ".join(criteria)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from stommel.errors import StommelError
 from stommel.machinery.hull.buckling import RingSection
 from stommel.vehicle import Vehicle
+from stommel.vehicle.missing_table import missing_table
 from stommel.vehicle.schema import Hull
 
 
@@ -38,6 +39,8 @@ class Requirement:
     """Yield over permissible stress [1]."""
     n_t: float
     """Tensile over permissible stress [1]."""
+    knock_down: float
+    """Share of a perfect tube's buckling pressure that out-of-roundness leaves [1]."""
     rings: RingSection | None
     notes: tuple[str, ...]
     """How sizes and loads were found where the file does not say them."""
@@ -53,20 +56,27 @@ class Requirement:
         return min(self.L, self.rings.spacing) if self.rings else self.L
 
 
-def requirement(vehicle: Vehicle, *, depth_m: float | None = None, pressure_mpa: float | None = None) -> Requirement:
-    """Read a vehicle's requirement; its rated depth and design pressure unless another depth or pressure is given.
+def requirement(
+    vehicle: Vehicle,
+    *,
+    depth_m: float | None = None,
+    pressure_mpa: float | None = None,
+    knock_down: float | None = None,
+) -> Requirement:
+    """Read a vehicle's requirement; its rated depth, pressure and knock-down unless others are given.
 
     Raises
     ------
     HullError
-        The file has no hull or no depth, or depth or pressure is not greater than zero.
+        The file has no hull or no depth, depth or pressure is not greater than zero, or the knock-down is not a share.
     """
     hull = vehicle.description.hull
     if hull is None:
-        raise HullError(f"{vehicle.name}: its file has no table [hull] to size")
+        raise HullError(f"{vehicle.name}: its file has no table [hull] to size; {missing_table('hull')}")
     notes: list[str] = []
     P, depth = _load(vehicle, hull, depth_m, pressure_mpa, notes)
     L = _checked_length(vehicle, hull, notes)
+    share = _knock_down(hull, knock_down, notes)
     rings = hull.rings
     return Requirement(
         P=P, depth=depth,
@@ -76,6 +86,7 @@ def requirement(vehicle: Vehicle, *, depth_m: float | None = None, pressure_mpa:
         C=hull.wall_allowance_mm / 1e3, phi_s=hull.weld_efficiency,
         m_c=hull.circumferential_safety_factor, m_a=hull.axial_safety_factor,
         n_y=hull.yield_safety_factor, n_t=hull.tensile_safety_factor,
+        knock_down=share,
         rings=RingSection(rings.spacing_mm / 1e3, rings.height_mm / 1e3, rings.width_mm / 1e3) if rings else None,
         notes=tuple(notes),
     )  # fmt: skip
@@ -111,6 +122,21 @@ def _load(
             f"{vehicle.name}: its file has neither hull.depth_rating_m nor hull.design_pressure_mpa; give a depth"
         )
     return per_metre * depth_m, depth_m
+
+
+def _knock_down(hull: Hull, asked: float | None, notes: list[str]) -> float:
+    """Share of the perfect tube's buckling pressure that the built one keeps."""
+    if asked is not None and not 0.0 < asked <= 1.0:
+        raise HullError(f"knock-down = {asked:g}: must be greater than 0 and at most 1")
+    share = hull.knock_down if asked is None else asked
+    if share < 1.0:
+        notes.append(f"knock-down for imperfections: {share:g} of the buckling pressure of a perfect tube")
+    else:
+        notes.append(
+            "knock-down for imperfections: none; all buckling pressures are those of a perfect tube, and the safety "
+            f"factor of {hull.circumferential_safety_factor:g} alone answers for one that is out of round"
+        )
+    return share
 
 
 def _checked_length(vehicle: Vehicle, hull: Hull, notes: list[str]) -> float:

@@ -1,5 +1,6 @@
 """The wall that a material needs, and what a wall stands by each criterion."""
 
+from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import ceil, isinf
@@ -42,10 +43,12 @@ class SizedHull:
     circumferential_wall: float
     axial_wall: float
     tube: Tube
-    """With the required wall rounded up, or with the wall that was asked."""
+    """With the least wall that meets every criterion, rounded up, or with the wall that was asked."""
     axial_critical_stress: float
     """Eq. (10) [Pa] for the tube."""
     criteria: tuple[Criterion, ...]
+    raised_for: tuple[str, ...]
+    """Criteria that the paper's wall does not meet at the checked length, for which the tube has a thicker one."""
     warnings: tuple[NamedWarning, ...]
 
     @property
@@ -59,8 +62,13 @@ class SizedHull:
         return rounded_up(self.exact_wall)
 
     @property
+    def failed(self) -> tuple[str, ...]:
+        """Criteria that the tube does not meet with the file's safety factors."""
+        return _failed(self.criteria, self.requirement.P)
+
+    @property
     def governed_by(self) -> str:
-        """Criterion that needs the thickest wall."""
+        """Criterion of the paper that needs the thickest wall."""
         walls = {
             paper_formulas.YIELD: self.yield_wall,
             paper_formulas.CIRCUMFERENTIAL: self.circumferential_wall,
@@ -103,6 +111,9 @@ class SizedHull:
             "required_wall_mm": _mm(self.required_wall),
             "governed_by": self.governed_by,
             "wall_mm": _mm(tube.delta),
+            "raised_for": list(self.raised_for),
+            "fails": list(self.failed),
+            "knock_down": self.requirement.knock_down,
             "fits": self.fits,
             "axial_critical_stress_mpa": self.axial_critical_stress / 1e6,
             "axial_stress_mpa": P * tube.D_o**2 / (8.0 * tube.R * tube.delta) / 1e6,
@@ -144,7 +155,9 @@ class SizedHull:
 
 
 def size(material: Material, need: Requirement, wall: float | None = None) -> SizedHull:
-    """Size a hull of one material; with `wall` [m], judge that wall instead of the required one.
+    """Size a hull of one material: the least wall, in steps of 0.1 mm, that meets the paper's and all other criteria.
+
+    With `wall` [m], judge that wall instead.
 
     Raises
     ------
@@ -152,30 +165,66 @@ def size(material: Material, need: Requirement, wall: float | None = None) -> Si
         The wall is not between zero and the radius, or no wall withstands the pressure.
     """
     sigma, rule = material.permissible_stress(need.n_y, need.n_t)
+    delta_y, delta_bc, delta_a = walls = _paper_walls(material, need, sigma)
+    raised_for: tuple[str, ...] = ()
+    if wall is None:
+        delta, raised_for = _sufficient(material, need, sigma, rounded_up(max(walls)))
+    elif 0.0 < wall < 0.5 * need.D_o:
+        delta = wall
+    else:
+        raise HullError(
+            f"wall = {wall * 1e3:g} mm: must be greater than 0 and less than half the outer diameter, "
+            f"{need.D_o * 500:g} mm"
+        )
+    tube = Tube(material, need.D_o, delta, need.length)
+    criteria = tuple(_criteria(tube, need, sigma))
+    return SizedHull(
+        material, need, sigma, rule, delta_y, delta_bc, delta_a, tube,
+        axial_critical_stress=paper_formulas.axial_critical_stress(delta, tube.R, material.E, need.m_a),
+        criteria=criteria, raised_for=raised_for,
+        warnings=(*_warnings(tube, need, walls), *_classical_warnings(tube, need, criteria)),
+    )  # fmt: skip
+
+
+def size_by_paper(material: Material, need: Requirement) -> SizedHull:
+    """Size a hull as the paper does: the wall of Eqs. (8) to (10), whatever the other criteria say of it."""
+    sigma, _ = material.permissible_stress(need.n_y, need.n_t)
+    return size(material, need, rounded_up(max(_paper_walls(material, need, sigma))))
+
+
+def _paper_walls(material: Material, need: Requirement, sigma: float) -> tuple[float, float, float]:
+    """Walls [m] by Eqs. (8), (9) and (10)."""
     if need.D_i is not None:
         delta_y = paper_formulas.yield_wall(need.P, need.D_i, sigma, need.phi_s, need.C)
     else:
         delta_y = paper_formulas.yield_wall_in_outer(need.P, need.D_o, sigma, need.phi_s, need.C)
-    delta_bc = paper_formulas.circumferential_wall(need.P, need.D_o, need.frame_length, material.E, need.m_c)
-    delta_a = paper_formulas.axial_wall(need.P, need.D_o, material.E, need.m_a)
-    delta = rounded_up(max(delta_y, delta_bc, delta_a)) if wall is None else wall
-    if not 0.0 < delta < 0.5 * need.D_o:
-        if wall is None:
-            raise HullError(
-                f"{material.name}: no wall within the outer diameter of {need.D_o * 1e3:g} mm withstands "
-                f"{need.P / 1e6:g} MPa with these safety factors"
-            )
+    m_c = need.m_c / need.knock_down
+    delta_bc = paper_formulas.circumferential_wall(need.P, need.D_o, need.frame_length, material.E, m_c)
+    return delta_y, delta_bc, paper_formulas.axial_wall(need.P, need.D_o, material.E, need.m_a)
+
+
+def _sufficient(material: Material, need: Requirement, sigma: float, paper: float) -> tuple[float, tuple[str, ...]]:
+    """Least wall [m] from the paper's up that meets every criterion, and the criteria that the paper's one fails."""
+
+    def failed(steps: int) -> tuple[str, ...]:
+        tube = Tube(material, need.D_o, steps * STEP_MM / 1e3, need.length)
+        return _failed(tuple(_criteria(tube, need, sigma)), need.P)
+
+    most = ceil(0.5 * need.D_o * 1e3 / STEP_MM - 1e-9)  # the first that leaves no bore
+    first = most if isinf(paper) else round(paper * 1e3 / STEP_MM)
+    # every criterion grows with the wall
+    steps = bisect_left(range(most), True, lo=min(first, most), key=lambda n: not failed(n))
+    if steps >= most:
         raise HullError(
-            f"wall = {delta * 1e3:g} mm: must be greater than 0 and less than half the outer diameter, "
-            f"{need.D_o * 500:g} mm"
+            f"{material.name}: no wall within the outer diameter of {need.D_o * 1e3:g} mm withstands "
+            f"{need.P / 1e6:g} MPa with these safety factors"
         )
-    tube = Tube(material, need.D_o, delta, need.length)
-    return SizedHull(
-        material, need, sigma, rule, delta_y, delta_bc, delta_a, tube,
-        axial_critical_stress=paper_formulas.axial_critical_stress(delta, tube.R, material.E, need.m_a),
-        criteria=tuple(_criteria(tube, need, sigma)),
-        warnings=tuple(_warnings(tube, need, delta_y, delta_bc, delta_a)),
-    )  # fmt: skip
+    return steps * STEP_MM / 1e3, failed(first) if steps > first else ()
+
+
+def _failed(criteria: tuple[Criterion, ...], P: float) -> tuple[str, ...]:
+    """Names of the criteria that are not met at a working pressure [Pa]."""
+    return tuple(criterion.name for criterion in criteria if criterion.permissible < P * (1.0 - 1e-9))
 
 
 def rounded_up(wall: float) -> float:
@@ -200,18 +249,20 @@ def _criteria(tube: Tube, need: Requirement, sigma: float) -> Iterator[Criterion
         return paper_formulas.yield_pressure(delta, D_i, stress, need.phi_s, need.C)
 
     yield Criterion(paper_formulas.YIELD, "paper", reached(material.sigma_fail), reached(sigma))
-    around = paper_formulas.circumferential_pressure(delta, need.D_o, L_f, E)
+    around = need.knock_down * paper_formulas.circumferential_pressure(delta, need.D_o, L_f, E)
     yield Criterion(paper_formulas.CIRCUMFERENTIAL, "paper", around, around / need.m_c)
     along = paper_formulas.axial_pressure(delta, need.D_o, E)
     yield Criterion(paper_formulas.AXIAL, "paper", along, along / need.m_a)
     lobed = buckling.von_mises(delta, R, L_f, E, nu)
-    yield Criterion("von Mises, n lobes", "classical", lobed.pressure, lobed.pressure / need.m_c, lobed.n)
-    short = buckling.windenburg_trilling(delta, R, L_f, E, nu)
+    kept = need.knock_down * lobed.pressure
+    yield Criterion("von Mises, n lobes", "classical", kept, kept / need.m_c, lobed.n)
+    short = need.knock_down * buckling.windenburg_trilling(delta, R, L_f, E, nu)
     if short < float("inf"):
         yield Criterion("Windenburg and Trilling", "classical", short, short / need.m_c)
     if need.rings is not None:
         whole = buckling.bryant(delta, R, need.L, need.rings, E)
-        yield Criterion("rings and tube, Bryant", "classical", whole.pressure, whole.pressure / need.m_c, whole.n)
+        kept = need.knock_down * whole.pressure
+        yield Criterion("rings and tube, Bryant", "classical", kept, kept / need.m_c, whole.n)
     strength = need.phi_s * material.sigma_fail
     bore = tube.D_i + 2.0 * min(need.C, 0.5 * delta)
     first = elasticity.tube_first_yield(bore, tube.D_o, strength)
@@ -220,13 +271,9 @@ def _criteria(tube: Tube, need: Requirement, sigma: float) -> Iterator[Criterion
     yield Criterion("whole wall yields", "classical", plastic, plastic * sigma / material.sigma_fail)
 
 
-def _warnings(tube: Tube, need: Requirement, delta_y: float, delta_bc: float, delta_a: float) -> Iterator[NamedWarning]:
-    walls = {
-        paper_formulas.YIELD: delta_y,
-        paper_formulas.CIRCUMFERENTIAL: delta_bc,
-        paper_formulas.AXIAL: delta_a,
-    }
-    for name, wall in walls.items():
+def _warnings(tube: Tube, need: Requirement, walls: tuple[float, float, float]) -> Iterator[NamedWarning]:
+    names = (paper_formulas.YIELD, paper_formulas.CIRCUMFERENTIAL, paper_formulas.AXIAL)
+    for name, wall in zip(names, walls, strict=True):
         if tube.delta < wall - 1e-9:
             yield NamedWarning(
                 "wall too thin",
@@ -250,3 +297,14 @@ def _warnings(tube: Tube, need: Requirement, delta_y: float, delta_bc: float, de
         yield NamedWarning(
             "thick wall", f"{tube.material.name}: wall over 5 % of the diameter: thin-shell buckling is rough"
         )
+
+
+def _classical_warnings(tube: Tube, need: Requirement, criteria: tuple[Criterion, ...]) -> Iterator[NamedWarning]:
+    for criterion in criteria:
+        if criterion.family == "classical" and criterion.permissible < need.P * (1.0 - 1e-9):
+            yield NamedWarning(
+                "classical criterion not met",
+                f"{tube.material.name}, wall {tube.delta * 1e3:.4g} mm: {criterion.name} gives "
+                f"{criterion.pressure / 1e6:.3g} MPa, which leaves less than the file's safety factor at "
+                f"{need.P / 1e6:.4g} MPa",
+            )

@@ -8,6 +8,7 @@ from stommel.machinery.drives.failures import DriveError
 from stommel.machinery.drives.gears import Gearbox, Helix, screw_helix, worm_helix
 from stommel.machinery.drives.motor import Motor, Running
 from stommel.vehicle import Vehicle
+from stommel.vehicle.missing_table import missing_table
 
 Direction = Literal[-1, 1]
 """+1 moves the mass forward, -1 aft."""
@@ -93,7 +94,10 @@ class PitchDrive:
         """
         d = vehicle.description
         if d.drives is None or d.drives.pitch is None:
-            raise DriveError(f"{vehicle.origin}: has no table [drives.pitch], which describes the drive of the mass")
+            raise DriveError(
+                f"{vehicle.origin}: has no table [drives.pitch], which describes the drive of the mass; "
+                f"{missing_table('drives.pitch')}"
+            )
         data = d.drives.pitch
         return cls(
             motor=Motor.on_supply(data.motor, d.battery.voltage_v if d.battery else None),

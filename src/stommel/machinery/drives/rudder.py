@@ -9,6 +9,7 @@ from stommel.machinery.drives.failures import DriveError
 from stommel.machinery.drives.gears import Gearbox
 from stommel.machinery.drives.motor import Motor, Running
 from stommel.vehicle import Vehicle
+from stommel.vehicle.missing_table import missing_table
 from stommel.vehicle.schema.drives import Brake
 
 STEPS = 120
@@ -113,9 +114,15 @@ class RudderDrive:
         """
         d = vehicle.description
         if d.drives is None or d.drives.rudder is None:
-            raise DriveError(f"{vehicle.origin}: has no table [drives.rudder], which describes the rudder's drive")
+            raise DriveError(
+                f"{vehicle.origin}: has no table [drives.rudder], which describes the rudder's drive; "
+                f"{missing_table('drives.rudder')}"
+            )
         if d.rudder is None:
-            raise DriveError(f"{vehicle.origin}: [drives.rudder] needs the table [rudder], which gives the side force")
+            raise DriveError(
+                f"{vehicle.origin}: [drives.rudder] needs the table [rudder], which gives the side force; "
+                f"{missing_table('rudder')}"
+            )
         data = d.drives.rudder
         return cls(
             motor=Motor.on_supply(data.motor, d.battery.voltage_v if d.battery else None),

@@ -14,6 +14,7 @@ from stommel.files.provenance import separate
 from stommel.files.sentences import validated
 from stommel.files.toml_reader import parse_toml
 from stommel.vehicle import Vehicle
+from stommel.vehicle.missing_table import missing_table
 from stommel.vehicle.schema import Engine
 
 _EXAMPLES = "examples"
@@ -58,7 +59,8 @@ def engine_of(vehicle: Vehicle) -> NamedEngine:
     if vehicle.description.engine is None:
         raise NoEngineError(
             f"{vehicle.name}: its file has no table [engine], the hydraulic circuit of the buoyancy engine; "
-            f"try another engine on it with --engine: {', '.join(example_names())}, or a file"
+            f"try another engine on it with --engine: {', '.join(example_names())}, or a file; "
+            f"{missing_table('engine')}"
         )
     return NamedEngine(vehicle.name, vehicle.description.engine)
 

@@ -42,7 +42,8 @@ def von_mises(delta: float, R: float, L: float, E: float, nu: float) -> Lobes:
 def windenburg_trilling(delta: float, R: float, L: float, E: float, nu: float) -> float:
     """Critical pressure [Pa] without lobes: Windenburg and Trilling (1934), Eq. (9), of tubes shorter than critical.
 
-    Infinite for a tube so short that the formula has no value.
+    Infinite for a tube so short that the formula has no value. A line through the arches of `von_mises`, from 16 %
+    below to 15 % above them: not on the safe side.
     """
     D = 2.0 * R
     slender = delta / D

@@ -117,6 +117,8 @@ class RudderMachinery(Table):
 
     chord_mm: Annotated[float, between(5, 2000)]
     """Chord of the blade."""
+    span_mm: Annotated[float, between(5, 3000)] | None = None
+    """Height of the blade, from the hull or its own root to the tip."""
     stock_chord_fraction: Share
     """Where the stock passes through the blade: distance from the leading edge over the chord."""
     seal_friction_mn_m: Annotated[float, between(0, 1e5)]

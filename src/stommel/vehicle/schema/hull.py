@@ -65,6 +65,8 @@ class Hull(Table):
     """Tensile stress over permissible stress."""
     circumferential_safety_factor: SafetyFactor = 2.0
     """Critical over working pressure for buckling round the circumference: m_c of the paper."""
+    knock_down: Fraction = 1.0
+    """Share of a perfect tube's buckling pressure round the circumference that the built tube keeps; 1 if left out."""
     axial_safety_factor: SafetyFactor = 3.0
     """Critical over permissible stress for buckling along the axis: m_a of the paper."""
     rings: Rings | None = None

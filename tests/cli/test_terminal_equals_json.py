@@ -1,7 +1,7 @@
 """Every cell and every named value that a verb prints is the number that `--json` gives under that name.
 
-The oracle is the JSON of the same call; which key belongs below which words is written here, verb by verb. A column or a
-value that is not named here fails as well. What the JSON says is held against the library in
+The oracle is the JSON of the same call; which key belongs below which words is written here, verb by verb. A column or
+a value that is not named here fails as well. What the JSON says is held against the library in
 `test_json_equals_library`.
 """
 

@@ -96,7 +96,7 @@ def _sea(ocean: str | None, at: str | None, time: str | None) -> "Sea | None":
 
     found = open_ocean(
         [ocean],
-        {"names": {}, "parameters": {}, "bounds": None, "between": None, "at_rest": False},
+        {"names": {}, "units": {}, "parameters": {}, "bounds": None, "between": None, "at_rest": False},
         {"outside": "error"},
     )
     when = float(found.data.nodes.times[0]) if time is None else seconds(time)

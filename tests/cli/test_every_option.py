@@ -197,7 +197,7 @@ CASES: dict[str, dict[str, Case]] = {
     "budget": {
         "--density": ("zju", "--density 1001:1002", {"density_kg_m3.0": 1001.0, "density_kg_m3.1": 1002.0}),
         "--foam-density": (
-            "zju --density 880", "--foam-density 300", {"density_kg_m3.0": 880.0, "trimming.added": CHANGED},
+            "fixed.toml --density 995", "--foam-density 300", {"density_kg_m3.0": 995.0, "trimming.added": CHANGED},
         ),
         "--apply": ("zju", "--apply a.toml", {"written": ["a.toml"]}),
         "--force": ("zju --apply old.toml", "--force", {"written": ["old.toml"]}),
@@ -320,6 +320,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     thick = builtin_text("zju").replace("bore_mm = { value = 50", "bore_mm = { value = 60", 1)
     assert thick != builtin_text("zju")
     (path / "thick.toml").write_text(thick)
+    (path / "fixed.toml").write_text(builtin_text("zju").replace("trim_weight = true\n", ""))
     (path / "old.toml").write_text("in the way")
     state = {"velocity_m_s": [0.3, 0.0, 0.01], "angular_velocity_rad_s": [0.0, 0.1, 0.0],
              "attitude_deg": [0.0, -30.0, 0.0], "moving_mass_position_m": 0.4, "ballast_volume_m3": -1e-4}  # fmt: skip

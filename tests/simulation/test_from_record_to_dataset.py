@@ -223,7 +223,7 @@ def submerged(dataset: xr.Dataset, least: float = 5.0) -> Array:
 
 def test_way_over_ground_is_the_way_through_the_water_and_the_current(turned: xr.Dataset) -> None:
     """Differences of the places, on the ellipsoid at 18 N, against attitude, velocity and current of each row."""
-    metres = np.array([[110_652.6], [105_869.8], [1.0]])  # a degree of latitude and longitude at 18 N, WGS 84
+    metres = np.array([[110_680.4], [105_904.9], [1.0]])  # a degree of latitude and longitude at 18 N, WGS 84
     places = np.stack([turned[name].values for name in ("latitude", "longitude", "depth")]).astype(float) * metres
     k = submerged(turned)
     assert len(k) > 2000
@@ -257,7 +257,7 @@ def test_the_turn_is_from_east_to_north(turned: xr.Dataset) -> None:
     assert turned["waypoint_reached"].values.tolist() == [1, 0]
     k = submerged(turned)
     sought = turned["waypoint_sought"].values[k]
-    ways = np.stack([turned["latitude"].values * 110_652.6, turned["longitude"].values * 105_869.8])
+    ways = np.stack([turned["latitude"].values * 110_680.4, turned["longitude"].values * 105_904.9])
     north, east = 0.5 * (ways[:, k + 1] - ways[:, k - 1])
     last = k > k[sought == 2][0] + 900  # once the turn is over
     legs = {1: sought == 1, 2: (sought == 2) & last}

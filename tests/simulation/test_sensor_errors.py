@@ -54,7 +54,7 @@ def spread_is(errors: Array, sigma: float) -> None:
     """No bias and this standard deviation, within 4.9 standard errors each; both are drawn from a fixed seed."""
     n = len(errors)
     assert abs(np.mean(errors)) < 4.9 * sigma / np.sqrt(n)
-    low, high = chi2.ppf([1e-6, 1.0 - 1e-6], n - 1)
+    low, high = (float(chi2.ppf(share, n - 1)) for share in (1e-6, 1.0 - 1e-6))
     assert low < np.sum((errors - np.mean(errors)) ** 2) / sigma**2 < high
 
 

@@ -132,35 +132,6 @@ def test_within_the_rating_nothing_is_told() -> None:
     assert not [when for when, _, reason in events(found) if reason == "hull rating passed"]
 
 
-SEAS: list[Document] = [
-    {"name": "still"},
-    {"name": "south_china_sea"},
-    {"name": "two_layer"},
-    {"name": "east_china_sea"},
-]
-PLACES = {"east_china_sea": (28.0, 127.0)}
-
-
-@pytest.mark.parametrize("sea", SEAS, ids=lambda sea: sea["name"])
-@pytest.mark.parametrize(("depth", "pitch", "speed"), [(30.0, 20.0, 0.25), (80.0, 35.0, 0.35), (150.0, 45.0, 0.4)])
-def test_no_dive_is_deeper_than_asked(sea: Document, depth: float, pitch: float, speed: float) -> None:
-    """By the whole path, every second; nor much shallower: a twentieth of the depth, and two metres."""
-    latitude, longitude = PLACES.get(sea["name"], (18.0, 116.0))
-    found = flown(
-        ocean=sea,
-        start={"latitude_deg": latitude, "longitude_deg": longitude},
-        waypoints=[{"latitude_deg": latitude + 0.5, "longitude_deg": longitude}],
-        dives={"depth_m": depth, "pitch_deg": pitch, "speed_m_s": speed},
-        duration_days=0.1,
-        output_every_s=1.0,
-    )
-    t, z = column(found, "time"), column(found, "depth")
-    for begin, end in stays(found, "descent")[: len(stays(found, "ascent"))]:
-        deepest = z[(t >= begin) & (t < end + 300.0)].max()
-        assert 0.95 * depth - 2.0 < deepest < depth
-    assert len(stays(found, "ascent")) >= 2
-
-
 def water_at(leak: Document, pitch_up: bool, seconds: int) -> np.ndarray:
     """Static moment that the leaked water adds at the end [kg m], over its mass."""
     simulator = Simulator(

@@ -1,7 +1,8 @@
 """Fly half a day through a thermocline and take the CTD's lags out of its salinity, as at sea; then compare with truth.
 
 A simulated mission knows the water that the vehicle flew through. That makes it a test bench for data processing: here
-for the lag of the thermistor and for the thermal mass of the conductivity cell (Lueck and Picklo 1990).
+for the lag of the thermistor and for the thermal mass of the conductivity cell (Lueck and Picklo 1990), whose numbers
+follow from the flow in the cell (Morison et al. 1994).
 """
 
 from pathlib import Path
@@ -40,9 +41,9 @@ water = T + ctd.temperature_lag_s * np.gradient(T, seconds)
 walls = np.zeros_like(T)
 for n in range(1, len(T)):
     dt = seconds[n] - seconds[n - 1]
-    decay = np.exp(-dt / ctd.cell_lag_s)
+    decay = np.exp(-dt / ctd.thermal_lag_s)
     slope = (water[n] - water[n - 1]) / dt
-    walls[n] = decay * walls[n - 1] + ctd.cell_share * ctd.cell_lag_s * (1.0 - decay) * slope
+    walls[n] = decay * walls[n - 1] + ctd.thermal_share * ctd.thermal_lag_s * (1.0 - decay) * slope
 
 reported = gsw.SP_from_C(10.0 * C, T, p)
 corrected = gsw.SP_from_C(10.0 * C, water - walls, p)

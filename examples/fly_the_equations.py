@@ -11,7 +11,7 @@ from stommel.dynamics.state import Actuation
 from stommel.geometry.attitude import euler_from_quaternion, quaternion_from_euler
 
 zju = stommel.load_vehicle("zju")
-flight = stommel.trim(zju, speed_m_s=0.4, pitch_deg=-35.0)
+flight = stommel.trim(zju, speed_m_s=0.4, pitch_deg=-35.0, physics=stommel.FULL)
 record, water, locked = pack(zju, stommel.FULL), reference_water(zju), Actuation()
 
 rest, level = (0.0, 0.0, 0.0), quaternion_from_euler(0.0, 0.0, 0.0)

@@ -150,6 +150,26 @@ def ratio_to_jsbsim() -> Measurement:
     return Measurement(ours / found["jsbsim"], detail)
 
 
+@figure(unit="x", bar=20.0, at_least=True)
+def ratio_to_jsbsim_at_10_hz() -> Measurement:
+    """As `ratio_to_jsbsim`, with JSBSim at 10 steps a second, the coarsest at which it flies these dives.
+
+    stommel's own step is adapted: from about one to some ten steps a second where something moves.
+    """
+    missing = _missing("jsbsim")
+    if missing:
+        return Measurement(None, {"skipped": missing})
+    found, flight = _speed_ups(), reference_flight()
+    plan, seconds = peer_jsbsim.plan_of(flight), 3600 * JSBSIM_HOURS
+    with tempfile.TemporaryDirectory() as name:
+        peer_jsbsim.write_aircraft(flight, Path(name))
+        theirs = max(
+            seconds / peer_jsbsim.timed_flight(Path(name), plan, seconds, COARSE_RATE)[0] for _ in range(REPEATS)
+        )
+    detail = _sides("jsbsim") | {"jsbsim_speed_up": theirs, "steps_per_s": COARSE_RATE}
+    return Measurement(found["stommel"] / theirs, detail)
+
+
 def _sides(peer: str) -> dict[str, Any]:
     found = _speed_ups()
     return {

@@ -187,7 +187,7 @@ def test_impossible_limits_are_refused(wrong: dict[str, float]) -> None:
 
 
 def test_vehicles_without_such_an_engine_are_refused() -> None:
-    with pytest.raises(BenchRequestError, match=r"no \[engine\]"):
+    with pytest.raises(BenchRequestError, match=r"no table \[engine\]"):
         bench_engine(load_vehicle("rogue"))
 
 

@@ -73,6 +73,30 @@ def test_lighter_water_takes_foam_where_no_trim_weight_can_go() -> None:
     assert lift == pytest.approx(0.3, abs=1e-6)
 
 
+def test_foam_is_put_high_and_lead_low() -> None:
+    """At 0.8 of the radius inside, 84 mm from the axis; z is down, so that both steady the vehicle."""
+    foam, lead = (budget_study(without_trim_weights(), rho).trimming for rho in (995.0, 1025.0))
+    for trimmed, material, sign in ((foam, "foam", -1.0), (lead, "lead", 1.0)):
+        assert trimmed is not None
+        assert {body.material for body in trimmed.added} == {material}
+        for body in trimmed.added:
+            assert np.hypot(body.position[1], body.position[2]) == pytest.approx(0.084)
+            assert sign * body.position[2] > 0.07
+
+
+@pytest.mark.parametrize("rho", [995.0, 1025.0])
+def test_stability_is_of_all_masses_and_volumes(rho: float) -> None:
+    """Centre of mass below centre of buoyancy, summed anew over the parts and what is added."""
+    vehicle = without_trim_weights()
+    trimmed = budget_study(vehicle, rho).trimming
+    assert trimmed is not None
+    rows = [(p.mass_kg, p.volume_m3, p.position_m[2]) for p in vehicle.description.parts]
+    rows += [(b.mass, b.mass / 200.0 if b.material == "foam" else 0.0, b.position[2]) for b in trimmed.added]
+    centre = sum(m * z for m, _, z in rows) / sum(m for m, _, _ in rows)
+    buoyancy = sum(V * z for _, V, z in rows) / sum(V for _, V, _ in rows)
+    assert trimmed.stability_arm == pytest.approx(centre - buoyancy, abs=1e-9)
+
+
 def test_denser_water_takes_one_trim_weight() -> None:
     trimmed = budget_study(ZJU, 1025.0).trimming
     assert trimmed is not None

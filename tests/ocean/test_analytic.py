@@ -177,7 +177,7 @@ class TestEastChinaSea:
     [
         ("gyr", {}, ["unknown analytic ocean", "gyre"]),
         ("gyre", {"speeed_m_s": 1.0}, ["unknown parameter speeed_m_s", "radius_km"]),
-        ("gyre", {"speed_m_s": 9.0}, ["speed_m_s = 9", "at most 5"]),
+        ("gyre", {"speed_m_s": 9.0}, ["speed_m_s = 9", "between -5 and 5"]),
         ("gyre", {"speed_m_s": "fast"}, ["speed_m_s = 'fast'", "number"]),
         ("pool", {"bottom_m": -3.0}, ["bottom_m = -3", "greater than 0"]),
         ("shear", {"sheared_depth_m": 300.0, "bottom_m": 200.0}, ["sheared_depth_m = 300"]),

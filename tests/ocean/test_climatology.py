@@ -167,6 +167,30 @@ def test_land_of_the_climatology_is_land(sea_file: Writer, tmp_path: Path) -> No
     assert not ocean.is_land(12.0, -176.5)
 
 
+def test_off_a_coast_at_the_edge_the_second_ocean_stands_alone(sea_file: Writer) -> None:
+    """South-west of the file's corner of land there is nothing to blend with; off its wet edge there is."""
+    behind = Ocean.analytic("uniform", **BEHIND)
+    ocean = Ocean.open(sea_file(), outside="climatology", climatology=behind, blend_km=80.0)
+    for place in (geodesy.travel(10.0, 177.0, 270.0, 5e3), geodesy.travel(10.2, 177.0, 270.0, 1e3)):
+        sample = ocean.at(START, *place, 20.0)
+        assert sample.held
+        assert sample.current_east == pytest.approx(0.7, abs=1e-6)
+        assert sample.temperature == pytest.approx(4.0, abs=5e-3)
+    wet = ocean.at(START, *geodesy.travel(13.0, 177.0, 270.0, 5e3), 20.0)
+    assert wet.current_east == pytest.approx(0.096 + 5.0 / 80.0 * (0.7 - 0.096), abs=2e-3)
+
+
+def test_beside_land_within_the_data_nothing_of_the_second_ocean_is_seen(sea_file: Writer) -> None:
+    """Where the nodes with water have more than half of the weight, they alone count."""
+    path, behind = sea_file(), Ocean.analytic("uniform", **BEHIND)
+    blended = Ocean.open(path, outside="climatology", climatology=behind, blend_km=80.0)
+    alone = Ocean.open(path)
+    for place in ((11.6, 177.3), (11.9, 177.5), (10.4, 178.6)):
+        a, b = (ocean.at(START, *place, 20.0) for ocean in (blended, alone))
+        assert not a.held
+        assert (a.current_east, a.temperature, a.bottom_depth) == (b.current_east, b.temperature, b.bottom_depth)
+
+
 def test_analytic_oceans_take_a_climatology_too() -> None:
     ocean = Ocean.analytic("gyre").with_outside("climatology", climatology="two_layer")
     assert ocean.at(0.0, 35.0, 125.0, 100.0).temperature == pytest.approx(10.0, abs=0.05)

@@ -10,7 +10,9 @@ from scipy.integrate import cumulative_trapezoid, solve_ivp
 from stommel.control.dive_cycle import PHASES
 from stommel.simulation.flight import Flown, fly_mission
 from stommel.simulation.results.ctd import samples_of
+from stommel.simulation.results.dataset import dataset_of
 from stommel.simulation.scenario.loading import mission_from
+from stommel.simulation.scenario.world_tables import Ctd
 from tests.simulation.conftest import EXACT, Document, column, flown, mission_document, sampled, stays
 
 IDEAL: Document = {
@@ -187,3 +189,37 @@ def test_sampling_on_the_ascent_alone_saves_the_ctd_s_energy() -> None:
     assert saved == pytest.approx(0.175 / 0.85 * idle, rel=0.01)
     for name in ("pump", "controller", "navigation"):
         assert column(both, f"energy_{name}")[-1] == column(up, f"energy_{name}")[-1]
+
+
+def test_cell_goes_by_its_flow_as_morison_found() -> None:
+    """The two ends of their table: SBE 9 at 1.75 m/s has alpha 0.0286 and tau 9.26 s by their fit; slower is worse."""
+    fast, slow = Ctd(cell_flow_m_s=1.75), Ctd(cell_flow_m_s=0.25)
+    assert (fast.thermal_share, fast.thermal_lag_s) == pytest.approx((0.02859, 9.2558), rel=1e-3)
+    assert (slow.thermal_share, slow.thermal_lag_s) == pytest.approx((0.1191, 12.7215), rel=1e-3)
+    stated = Ctd(cell_flow_m_s=1.75, cell_share=0.04, cell_lag_s=8.0)
+    assert (stated.thermal_share, stated.thermal_lag_s) == (0.04, 8.0)
+
+
+def test_cell_left_to_its_flow_settles_where_morison_s_numbers_say(tmp_path: Path) -> None:
+    """Ramp: the error settles at alpha tau dT/dt with both from the flow, 0.0663 and 11.04 s at 0.5 m/s."""
+    found = cast(tmp_path, RAMP, ctd={key: value for key, value in IDEAL.items() if key != "cell_share"}
+                 | {"cell_flow_m_s": 0.5})  # fmt: skip
+    share, lag = 0.0264 / 0.5 + 0.0135, 2.7858 / np.sqrt(0.5) + 7.1499
+    steady = within(found, "descent", 150.0)
+    error = water_at_samples(found) - sampled(found, "cell")
+    np.testing.assert_allclose(error[steady], share * lag * rate_ago(found, lag)[steady], rtol=0.02)
+
+
+def test_samples_carry_the_number_of_their_profile() -> None:
+    """By the depth alone: each odd profile only sinks, each even one only rises, in the order of time without gaps."""
+    found = flown(sensors=EXACT, dives={"depth_m": 60.0, "pitch_deg": 35.0, "speed_m_s": 0.35, "per_surfacing": 2},
+                  duration_days=0.1)  # fmt: skip
+    data = dataset_of(found)
+    number, pressure = data["sample_profile"].values, data["sample_pressure"].values
+    profiles = [int(n) for n in dict.fromkeys(number[number > 0])]
+    assert profiles == list(range(1, len(profiles) + 1))
+    assert len(profiles) >= 4
+    for n in profiles[:-1]:
+        steps = np.diff(pressure[number == n])[5:]  # an ascent begins while the vehicle still sinks
+        assert ((steps > -0.3) if n % 2 else (steps < 0.3)).all()
+        assert abs(pressure[number == n][-1] - pressure[number == n][0]) > 30.0

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from stommel.simulation.flight import Flown
 from stommel.simulation.plant.waves import heave_period, jonswap, not_followed, waves_of
@@ -119,3 +120,30 @@ def test_current_after_dives_without_position_spans_them_all(sometimes: Flown) -
 def test_reckoning_goes_on_without_a_position(sometimes: Flown) -> None:
     """Once the current is known, the error stays small also over several dives: drift at the surface is reckoned."""
     assert surfaced(sometimes, "reckoning_error")[2:].max() < 20.0
+
+
+@pytest.mark.parametrize("peak", [0.5, 1.3])
+def test_peak_is_steeper_below_than_above(peak: float) -> None:
+    """Hasselmann et al. (1973): widths of 0.07 and 0.09 of the peak; one width away, 3.3 to the power exp(-1/2)."""
+    for side, width in ((-1.0, 0.07), (1.0, 0.09)):
+        for widths in (0.5, 1.0, 2.0):
+            omega = np.array([peak * (1.0 + side * widths * width)])
+            plain = omega**-5.0 * np.exp(-1.25 * (peak / omega) ** 4)
+            expected = 3.3 ** np.exp(-0.5 * widths**2)
+            assert jonswap(omega, peak) / plain == pytest.approx(expected, rel=1e-9)
+
+
+def test_hull_answers_waves_as_a_damped_oscillator() -> None:
+    """y'' + 2 zeta w y' + w2 (y - elevation) = 0, solved in time until the start is forgotten."""
+    period, damping = 3.0, 0.2
+    own = 2.0 * np.pi / period
+    for wave in (12.0, 4.0, 3.0, 1.5):
+        omega = 2.0 * np.pi / wave
+
+        def rates(t: float, y: np.ndarray, omega: float = omega) -> list[float]:
+            return [y[1], own**2 * (np.cos(omega * t) - y[0]) - 2.0 * damping * own * y[1]]
+
+        t = np.linspace(40.0 * period, 40.0 * period + 4.0 * wave, 2000)
+        heave = solve_ivp(rates, (0.0, t[-1]), [0.0, 0.0], t_eval=t, rtol=1e-8, atol=1e-10).y[0]
+        along = np.abs(np.cos(omega * t) - heave).max()
+        assert not_followed(np.array([omega]), period)[0] == pytest.approx(along, rel=2e-3)

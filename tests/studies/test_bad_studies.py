@@ -129,7 +129,7 @@ def test_unknown_output_is_found_with_the_first_run(folder: Path, write: Write) 
     study = write('kind = "monte_carlo"\nruns = 1\noutputs = ["fuel"]\n' + UNIFORM)
     message = refused(folder, study, "--workers", 1)
     assert "'fuel'" in message
-    assert "dives" in message
+    assert "the summary of a mission has no such number; there are: days" in message
 
 
 def limited(folder: Path, most_bytes: int, *arguments: object) -> str:

@@ -28,3 +28,20 @@ def commands(text: str, verb: str = "") -> list[list[str]]:
     calls = re.findall(r"^(?:\$ )?stommel (.+)$", text, re.MULTILINE)
     found = [shlex.split(call, comments=True) for call in calls]
     return [arguments for arguments in found if not verb or arguments[0] == verb]
+
+
+def edited(text: str, block: str) -> str:
+    """A vehicle file after the edits of a page's block of TOML.
+
+    `# in [table]` and `# in the part "name"` head keys that are there already, `# at the end` what is added.
+    """
+    for place, lines in re.findall(r"^# (in [^\n]*|at the end)\n(.*?)(?=\n# |\Z)", block, re.DOTALL | re.MULTILINE):
+        if place == "at the end":
+            text += f"\n{lines}\n"
+            continue
+        head = f"name = {found[1]}" if (found := re.search(r'part (".*")', place)) else place.removeprefix("in ")
+        for key, value in re.findall(r"^(\w+) = (.*)$", lines, re.MULTILINE):
+            pattern = rf"(^{re.escape(head)}.*?^{key} = )[^#\n]*"
+            text, changed = re.subn(pattern, lambda m, v=value: m[1] + v, text, count=1, flags=re.DOTALL | re.MULTILINE)
+            assert changed == 1, (place, key)
+    return text

@@ -198,6 +198,7 @@ def _show(row: dict[str, Any]) -> None:
         "mission": f"{row['name']}: {row['vehicle']} in {row['ocean']}",
         "outcome": row["outcome"],
         "time": f"{duration(row['days'])}, {counted(row['dives'], 'dive')}, deepest {row['deepest_m']:.1f} m",
+        **_speed(row),
         "distance": _distances(row),
         "seed": str(row["seed"]),
     }
@@ -214,7 +215,7 @@ def _show(row: dict[str, Any]) -> None:
     if row["ctd_samples"]:
         values["CTD"] = counted(row["ctd_samples"], "sample")
     if row["speed_up"] is not None:
-        values["speed"] = f"{row['speed_up']:,.0f} times real time, flown in {row['flight_s']:.3g} s"
+        values["speed-up"] = f"{row['speed_up']:,.0f} times real time, flown in {row['flight_s']:.3g} s"
     values["events"] = ", ".join(f"{name}: {count}" for name, count in row["events"].items()) or "none"
     show_values(row["verdict"], values)
     show_warnings(f"{warning['name']}: {warning['message']}" for warning in row["warnings"])
@@ -223,6 +224,14 @@ def _show(row: dict[str, Any]) -> None:
     if row["energy_wh"] is not None:
         _show_energy(row["energy_wh"])
     show_vehicle_check(row["vehicle_check"])
+
+
+def _speed(row: dict[str, Any]) -> dict[str, str]:
+    """How fast the dives were; a mission without any has none."""
+    if row["flown_speed_m_s"] is None:
+        return {}
+    asked = "" if row["asked_speed_m_s"] is None else f"; {row['asked_speed_m_s']:g} m/s asked"
+    return {"speed": f"{row['flown_speed_m_s']:.3f} m/s through the water, mean of the dives{asked}"}
 
 
 def _distances(row: dict[str, Any]) -> str:

@@ -32,7 +32,8 @@ class Dives(Table):
     pitch_deg: PitchAngle
     """Magnitude of the pitch, down and up."""
     speed_m_s: Speed | None = None
-    """Mean speed along the path through the water of the dive; the ballast volume follows from trim and water."""
+    """Mean speed along the path through the water of the dive, while no oil flows; the ballast follows from trim and
+    water."""
     least_speed_m_s: Speed | None = None
     """Speed along the path where the water drives least. Beside `speed_m_s`, which it defaults to half of, a bound on
     how slow the dive may become; instead of it, what the ballast volume follows from."""

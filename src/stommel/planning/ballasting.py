@@ -5,9 +5,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from stommel.analysis.reversal import OVERRUN, Inertia
 from stommel.analysis.stratified import (
-    REFERENCE_SPEED,
     DiveBallast,
     DiveWater,
     WantedDive,
@@ -18,7 +16,6 @@ from stommel.analysis.stratified import (
     trimmed_midway,
     yielded,
 )
-from stommel.analysis.trim import trim
 from stommel.compilation import compiled
 from stommel.dynamics.equations import static_moment
 from stommel.dynamics.inertia import moving_mass_position
@@ -119,30 +116,6 @@ def pump_flow(deployment: Deployment) -> float:
     P = float(water_of(deployment).pressure[-1])
     flow = float(pump_by_engine(d.engine, P).inflating_m3_s[-1])
     return flow if flow > 0.0 else inf  # one that stalls is refused elsewhere
-
-
-ALLOWED_M, ALLOWED_SHARE, MOST_ALLOWED = 1.0, 0.01, 0.05
-"""Allowed for where a dive turns: metres and a share of its depth, up to a share of it. The pitch follows later than
-the oil, and sensors err."""
-MOST_OF_DEPTH = 0.5
-"""No dive turns above this part of its depth."""
-
-
-def overshoot(deployment: Deployment, ballast: DiveBallast, neutral: Array, step: float) -> float:
-    """Way by which a dive goes on sinking after the decision to turn [m] (eq-sim15).
-
-    While the pump brings it to neutral, while its inertia is used up, and for two decisions a `step` [s] apart.
-    """
-    dives, vehicle, physics = deployment.plan.dives, deployment.vehicle, deployment.physics
-    speed = dives.speed_m_s or dives.least_speed_m_s or REFERENCE_SPEED
-    dive = trim(vehicle, speed_m_s=speed, pitch_deg=-dives.pitch_deg, physics=physics)
-    before, after = float(neutral[-1]) - ballast.down, ballast.up - float(neutral[-1])
-    w = dive.sinking_speed * float(np.sqrt(before / abs(dive.V_b)))
-    d = vehicle.description
-    inertia = Inertia(d.mass_kg + d.added_inertia.surge_kg, vehicle.neutral_density_kg_m3 * d.water.gravity_m_s2)
-    sinking = 2.0 / 3.0 * w * before / pump_flow(deployment) + OVERRUN * w * float(inertia.time(w, after))
-    allowed = min(ALLOWED_M + ALLOWED_SHARE * dives.depth_m, MOST_ALLOWED * dives.depth_m)
-    return float(min(sinking + 2.0 * step * w + allowed, MOST_OF_DEPTH * dives.depth_m))
 
 
 def afloat_volume(deployment: Deployment) -> float:

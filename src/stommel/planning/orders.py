@@ -16,10 +16,10 @@ from stommel.planning.ballasting import (
     ballast_volumes,
     mass_position_at_rest,
     neutral_ballast,
-    overshoot,
     surplus_afloat,
 )
 from stommel.planning.deployment import Deployment
+from stommel.planning.overshoot import overshoot
 
 Array = NDArray[np.float64]
 

@@ -24,11 +24,14 @@ ROW = np.dtype(
         ("energy", "f8", (len(CONSUMERS),)),
     ]
 )  # fmt: skip
-"""A row of the record, all of one moment; SI units and radians. `u`, `v`, `w` are through the water."""
+"""A row of the record, all of one moment; SI units and radians. `u`, `v`, `w` are those of the hull through the
+water."""
 
-SAMPLE = np.dtype(_numbers("time", "latitude", "longitude", "pressure", "thermistor", "cell", "salinity", "phase"))
+SAMPLE = np.dtype(
+    _numbers("time", "latitude", "longitude", "pressure", "thermistor", "cell", "salinity", "phase", "dive")
+)
 """A sample of the CTD: believed position, true pressure, temperature of thermistor and of the conductivity cell, true
-salinity."""
+salinity; phase and number of the dive, from 1."""
 
 SURFACING = np.dtype(
     _numbers(

@@ -128,13 +128,13 @@ def _act(equipment, sea, loop, x, world, water, commands, noise, t):  # type: ig
 
 
 @inlined
-def _write(equipment, loop, column, x, memory, world, water, readings, commands, noise, log, tick):  # type: ignore[no-untyped-def]  # compiled only
+def _write(equipment, loop, column, x, memory, world, water, readings, commands, done, noise, log, tick):  # type: ignore[no-untyped-def]  # compiled only
     t = tick * loop.control_step
     if tick % equipment.sensors.sample_every == 0 and commands.sampling:
         write_sample(log, t, x, water, memory, world, column)
     if tick % loop.record_every == 0:
         age = loop.start + t - column.place[TIME]
-        write_row(log, t, age, x, equipment, memory, world, readings, column, noise)
+        write_row(log, t, age, x, equipment, done, loop.control_step, memory, world, readings, column, noise)
 
 
 @inlined
@@ -178,7 +178,7 @@ def _obey(  # type: ignore[no-untyped-def]  # compiled only
     t = tick * loop.control_step
     _note(log, memory, world, before, t, x[DEPTH])
     done = _act(equipment, sea, loop, x, world, water, commands, noise, t)
-    _write(equipment, loop, column, x, memory, world, water, readings, commands, noise, log, tick)
+    _write(equipment, loop, column, x, memory, world, water, readings, commands, done, noise, log, tick)
     advance(equipment, x, k, trial, world, done, loop, column, t)
     _warn_of_depth(equipment.hull, log, x, memory, world, t)
     return _outcome(equipment, x, world, commands, t)

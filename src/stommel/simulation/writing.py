@@ -23,13 +23,25 @@ def salinity_at(column: Column, z: float) -> float:
 
 
 @inlined
-def write_row(log, t, age, x, equipment, memory, world, readings, column, noise):  # type: ignore[no-untyped-def]  # compiled only
-    """Write one row of the record (`ROW`)."""
+def hull_velocities(vehicle, x, by_mass, at_rest, done, water, step):  # type: ignore[no-untyped-def]  # compiled only
+    """Velocities of the hull at the beginning of a step: what the momenta leave beside mass and oil that move in it.
+
+    A vehicle that floats or lies on the ground is put to rest as a whole, whatever moves in it.
+    """
+    mu = done.steering - 0.5 * done.steering_rate * step if by_mass else 0.0
+    mu_dot = done.steering_rate if by_mass and not at_rest else 0.0
+    r_px_dot, u_b = (0.0, 0.0) if at_rest else (done.r_px_dot, done.u_b)
+    return velocities(vehicle, state_from_array(x), Actuation(r_px_dot, 0.0, u_b, 0.0, mu, mu_dot), water, False)
+
+
+@inlined
+def write_row(log, t, age, x, equipment, done, step, memory, world, readings, column, noise):  # type: ignore[no-untyped-def]  # compiled only
+    """Write one row of the record (`ROW`); `done` is what the actuators do from now on."""
     by_mass, sensors = equipment.plant.steering.by_mass != 0.0, equipment.sensors
     state = state_from_array(x)
     water = water_at(column, x[DEPTH], age)
-    actuation = Actuation(0.0, 0.0, 0.0, 0.0, world.steering if by_mass else 0.0, 0.0)
-    eta = velocities(equipment.vehicle, state, actuation, water, False)
+    at_rest = world.afloat != 0 or x[DEPTH] >= column.place[BOTTOM]
+    eta = hull_velocities(equipment.vehicle, x, by_mass, at_rest, done, water, step)
     true = attitude_of(state.Q)
     row = log.record[log.counts[ROWS]]
     log.counts[ROWS] += 1
@@ -61,7 +73,7 @@ def write_sample(log, t, x, water, memory, world, column):  # type: ignore[no-un
     log.counts[SAMPLES] += 1
     row.time, row.latitude, row.longitude, row.pressure = t, memory.latitude, memory.longitude, water.P
     row.thermistor, row.cell = world.thermistor, water.T - world.cell_error
-    row.salinity, row.phase = salinity_at(column, x[DEPTH]), memory.phase
+    row.salinity, row.phase, row.dive = salinity_at(column, x[DEPTH]), memory.phase, memory.dives
 
 
 @inlined

@@ -16,7 +16,7 @@ class Physics:
 
 
 PAPER = Physics(bladder=False, hull_elasticity=False, large_angles=False)
-"""The model of Fan et al. (2013): reproduces Tables 1 and 2."""
+"""The model of Fan et al. (2013): its coefficients for `zju` were recovered from Tables 1 and 2."""
 
 FULL = Physics(bladder=True, hull_elasticity=True, large_angles=True)
 """Everything that the vehicle file gives numbers for."""

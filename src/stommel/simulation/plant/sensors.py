@@ -109,8 +109,8 @@ def sensors_of(scenario: ScenarioFile) -> Sensors:
         thermistor_decay=1.0 - followed(step, ctd.temperature_lag_s),
         # the answers to a temperature that changes evenly through the step
         thermistor_gain=ctd.temperature_lag_s / step * followed(step, ctd.temperature_lag_s),
-        cell_decay=1.0 - followed(step, ctd.cell_lag_s),
-        cell_gain=ctd.cell_share * ctd.cell_lag_s / step * followed(step, ctd.cell_lag_s),
+        cell_decay=1.0 - followed(step, ctd.thermal_lag_s),
+        cell_gain=ctd.thermal_share * ctd.thermal_lag_s / step * followed(step, ctd.thermal_lag_s),
         sample_every=round(scenario.sampling.every_s / step),
     )
 

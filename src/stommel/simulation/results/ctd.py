@@ -6,6 +6,7 @@ import gsw
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.control.dive_cycle import ASCENT, DESCENT
 from stommel.simulation.flight import Flown
 
 Array = NDArray[np.float64]
@@ -26,6 +27,13 @@ class Samples(NamedTuple):
     """Of the water at the temperature of the conductivity cell [S/m]."""
     practical_salinity: Array
     """PSS-78 of the three, without any correction of their lags."""
+
+
+def profiles_of(flown: Flown) -> NDArray[np.int32]:
+    """Number of the profile of each sample: descents are odd, ascents even, in their order from 1; 0 between them."""
+    dive, phase = flown.samples["dive"].astype(np.int32), flown.samples["phase"]
+    number = np.where(phase == DESCENT, 2 * dive - 1, np.where(phase == ASCENT, 2 * dive, 0))
+    return number.astype(np.int32)
 
 
 def samples_of(flown: Flown) -> Samples:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stommel.files.whole import whole_file
 from stommel.simulation.flight import Flown
 from stommel.simulation.results import variables
-from stommel.simulation.results.ctd import samples_of
+from stommel.simulation.results.ctd import profiles_of, samples_of
 from stommel.simulation.results.energy import energy_of
 from stommel.simulation.results.events import Events, events_of
 from stommel.simulation.results.verdict import verdict
@@ -94,6 +94,7 @@ def _samples(flown: Flown) -> dict[str, Any]:
         found[f"sample_{name}"] = ("sample", measured[name], dict(attributes) | {"coordinates": _SAMPLED})
     phase = rows["phase"].astype(np.int8)
     found["sample_phase"] = ("sample", phase, _flags(variables.PHASE))
+    found["sample_profile"] = ("sample", profiles_of(flown), dict(variables.PROFILE))
     return found
 
 

@@ -9,6 +9,7 @@ from stommel.geometry.geodesics import line_length
 from stommel.simulation.flight import Flown
 from stommel.simulation.results.energy import energy_of
 from stommel.simulation.results.events import counts_of, dives_begun, events_of
+from stommel.simulation.results.speed import flown_speed
 from stommel.simulation.results.verdict import verdict
 from stommel.simulation.results.waypoints import Waypoints, as_rows, waypoints_of
 
@@ -35,6 +36,8 @@ def summary(flown: Flown) -> dict[str, Any]:
         "dives": int(dives_begun(flown.events["phase"], flown.events["reason"]).sum()),
         "surfacings": len(flown.surfacings),
         "deepest_m": float(record["depth"].max()) if len(record) else 0.0,
+        "flown_speed_m_s": flown_speed(record),
+        "asked_speed_m_s": plan.dives.speed_m_s,
         **_distances(flown),
         **_energy(flown, days),
         **_navigation(flown.surfacings),

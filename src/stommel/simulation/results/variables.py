@@ -137,6 +137,11 @@ SAMPLES: dict[str, Attributes] = {
 }
 """Measured by the CTD, one of each a sample."""
 
+PROFILE: Attributes = {
+    "long_name": "number of the profile: descents odd, ascents even, from 1; 0 between them",
+    "units": "1",
+}
+
 PHASE: Attributes = {
     "long_name": "phase of the dive cycle",
     "flag_values": list(range(len(PHASES))),

@@ -91,10 +91,23 @@ class Ctd(Table):
     """Standard deviation."""
     temperature_lag_s: Lag = 0.5
     """Time constant of the thermistor."""
-    cell_lag_s: Annotated[float, between(0.01, 600)] = 7.0
-    """Time constant of the conductivity cell's thermal mass; Sea-Bird's figure for a pumped cell (Seasoft manual)."""
-    cell_share: Share = 0.03
-    """Its initial magnitude, as a part of a step in temperature; from the same manual."""
+    cell_flow_m_s: Annotated[float, between(0.05, 5)] = 0.58
+    """Flow in the conductivity cell, which its thermal mass goes by (Morison et al. 1994): 10 ml/s of a GPCTD's pump
+    through the cell in which they had 1.75 m/s at 30 ml/s."""
+    cell_lag_s: Annotated[float, between(0.01, 600)] | None = None
+    """Time constant of the cell's thermal mass; by its flow if left out."""
+    cell_share: Share | None = None
+    """Initial magnitude of the cell's error, as a part of a step in temperature; by its flow if left out."""
+
+    @property
+    def thermal_lag_s(self) -> float:
+        """Time constant of the cell's thermal mass: stated, or tau = 2.7858 V^-1/2 + 7.1499 (Morison et al. 1994)."""
+        return 2.7858 / self.cell_flow_m_s**0.5 + 7.1499 if self.cell_lag_s is None else self.cell_lag_s
+
+    @property
+    def thermal_share(self) -> float:
+        """Share of the cell's error in a step: stated, or alpha = 0.0264 V^-1 + 0.0135 (Morison et al. 1994)."""
+        return 0.0264 / self.cell_flow_m_s + 0.0135 if self.cell_share is None else self.cell_share
 
 
 class Waves(Table):

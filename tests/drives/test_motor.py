@@ -11,7 +11,7 @@ MOTOR = Motor(K_t=0.025, R=0.5, I_0=0.2, U=24.0, J=1e-5, I_continuous=3.0)
 def test_supply_feeds_heat_and_shaft(torque: float) -> None:
     found = MOTOR.running(torque)
     assert found.current == pytest.approx(torque / 0.025 + 0.2)
-    assert 24.0 == pytest.approx(0.5 * found.current + 0.025 * found.speed)
+    assert pytest.approx(0.5 * found.current + 0.025 * found.speed) == 24.0
     shaft_and_friction = (torque + 0.025 * 0.2) * found.speed
     assert found.power == pytest.approx(0.5 * found.current**2 + shaft_and_friction)
 

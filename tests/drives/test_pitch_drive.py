@@ -187,3 +187,13 @@ def test_impossible_questions_are_refused() -> None:
     narrow = ZJU.with_value("drives.pitch.switches_mm.0", -40.0)
     with pytest.raises(DriveError, match=r"switches_mm = \[-40, 553\]: must enclose actuators\.moving_mass\.travel_mm"):
         drive_study(narrow)
+
+
+@pytest.mark.parametrize("pitch", [0.0, 35.0, 60.0, -80.0])
+def test_guide_bears_what_stands_across_it(pitch: float) -> None:
+    """A block on an incline: m g sin along it either way, and friction of the part of the weight across it, m g cos."""
+    drive = PitchDrive.of(load_vehicle("zju"))
+    theta, weight = np.radians(pitch), 10.0 * 9.81
+    forward, aft = drive.load(theta, 1), drive.load(theta, -1)
+    assert 0.5 * (forward - aft) == pytest.approx(weight * np.sin(theta), abs=1e-9)
+    assert 0.5 * (forward + aft) == pytest.approx(0.1 * weight * np.cos(theta))

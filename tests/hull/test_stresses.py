@@ -8,6 +8,7 @@ import pytest
 from stommel.design.hull.requirement import Requirement, requirement
 from stommel.design.hull.sizing import SizedHull, size
 from stommel.machinery.hull import find_material, load_materials
+from stommel.machinery.hull.buckling import RingSection, ring_inertia
 from stommel.vehicle import load_vehicle
 
 NEED = requirement(load_vehicle("zju"))
@@ -84,3 +85,21 @@ def test_buckling_s_permissible_is_its_pressure_over_the_file_s_factor() -> None
             assert criterion.permissible == pytest.approx(criterion.pressure / 2.0)
         if "Eq. (10)" in criterion.name:
             assert criterion.permissible == pytest.approx(criterion.pressure / 3.0)
+
+
+def test_a_ring_works_with_its_share_of_the_wall() -> None:
+    """Ring and wall about their common centroid by parallel axes; breadth = ring + 1.56 sqrt(R wall) (Bryant 1954)."""
+    R, wall, ring = 0.1, 2e-3, RingSection(spacing=0.2, height=6e-3, width=4e-3)
+    breadth = 4e-3 + 1.56 * sqrt(R * wall)
+    assert breadth < ring.spacing
+    areas, centres = (breadth * wall, 4e-3 * 6e-3), (0.5 * wall, wall + 3e-3)
+    own = breadth * wall**3 / 12.0 + 4e-3 * 6e-3**3 / 12.0
+    centroid = sum(a * z for a, z in zip(areas, centres, strict=True)) / sum(areas)
+    whole = own + sum(a * (z - centroid) ** 2 for a, z in zip(areas, centres, strict=True))
+    assert ring_inertia(wall, R, ring) == pytest.approx(whole, rel=1e-12)
+    close = ring._replace(spacing=0.02)  # nearer than that the wall between is all there is
+    areas = (0.02 * wall, 4e-3 * 6e-3)
+    own = 0.02 * wall**3 / 12.0 + 4e-3 * 6e-3**3 / 12.0
+    centroid = sum(a * z for a, z in zip(areas, centres, strict=True)) / sum(areas)
+    whole = own + sum(a * (z - centroid) ** 2 for a, z in zip(areas, centres, strict=True))
+    assert ring_inertia(wall, R, close) == pytest.approx(whole, rel=1e-12)

@@ -33,12 +33,13 @@ def test_ten_times_smaller_steps_change_little() -> None:
     fine = flown(sensors=QUIET, integration=finer, duration_days=1.0)
     assert np.abs(column(fine, "depth") - column(coarse, "depth")).max() < 1.0
     made_good = [summary(one)["distance_made_good_km"] for one in (coarse, fine)]
+    assert min(made_good) > 10.0  # not the nothing of a mission without a position
     assert made_good[0] == pytest.approx(made_good[1], rel=1e-3)
 
 
 def test_dives_reach_their_depth_and_no_more(quarter_day: Flown) -> None:
     deepest = column(quarter_day, "depth").max()
-    assert 99.0 < deepest < 110.0
+    assert 95.0 < deepest < 100.0
 
 
 def test_energies_only_grow(quarter_day: Flown) -> None:

@@ -85,3 +85,15 @@ def test_a_pressure_sensor_that_never_says_shallow_does_not_keep_it_from_calling
     begin, end = stays(found, "ascent")[0]
     assert end - begin == pytest.approx(1800.0, abs=2.0)
     assert len(found.surfacings) >= 2
+
+
+@pytest.mark.parametrize("each", [1, 3])
+def test_surfacings_carry_the_number_of_the_dive_before(each: int) -> None:
+    """Descents begun until then, counted by the events; the first dive is number 1."""
+    found = flown(dives=SHALLOW | {"per_surfacing": each}, sensors=EXACT)
+    descents = np.array([t for t, phase, _ in events(found) if phase == "descent"])
+    assert len(found.surfacings) >= 2
+    # a row is written when the vehicle leaves, with the descent that begins then
+    expected = [int(np.sum(descents < t)) for t in found.surfacings["time"]]
+    assert found.surfacings["dive"].tolist() == expected
+    assert expected[0] == each

@@ -35,10 +35,15 @@ def test_measurements_are_the_truth_some_seconds_ago(late: Flown, name: str, lag
 
 
 def test_late_pressure_turns_the_vehicle_late(late: Flown) -> None:
-    """By the way that it sinks meanwhile, and less than a second of it."""
+    """By so many seconds after its true depth passes the one at which the prompt vehicle turns, and so much deeper."""
     prompt = fly()
-    begins, depths = ([begin for begin, _ in stays(found, "inflection")] for found in (prompt, late)), []
-    for found, begin in zip((prompt, late), begins, strict=True):
-        depths.append(column(found, "depth")[round(begin[0])])
-    sinking = float(np.diff(column(late, "depth"))[np.argmax(column(late, "depth") > 99.0)])
-    assert depths[1] - depths[0] == pytest.approx(PRESSURE * sinking, abs=sinking)
+    (turns, _), *_ = stays(prompt, "inflection")
+    depth, t = column(prompt, "depth"), column(prompt, "time")
+    (turned, _), *_ = stays(late, "inflection")
+    true = column(late, "depth")
+    # the first decision at or below the depth, by the depth of so long ago: between the prompt turn and a second before
+    passed = t[np.argmax(true >= depth[round(turns)] - 1e-6)]
+    assert turned - passed == pytest.approx(PRESSURE, abs=1.0)
+    sinking = true[round(turned)] - true[round(turned) - 1]
+    assert sinking > 0.1
+    assert true[round(turned)] - depth[round(turns)] == pytest.approx(PRESSURE * sinking, abs=1.5 * sinking)

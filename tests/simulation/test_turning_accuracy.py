@@ -28,6 +28,7 @@ def test_ten_times_smaller_steps_change_little(pitch: float) -> None:
     assert np.abs(column(coarse, "v")).max() > 0.005
     assert np.abs(column(fine, "depth") - column(coarse, "depth")).max() < 1.0
     made_good = [summary(one)["distance_made_good_km"] for one in (coarse, fine)]
+    assert min(made_good) > 0.3  # not the nothing of a mission without a position
     assert made_good[0] == pytest.approx(made_good[1], rel=1e-3)
     apart = np.hypot(*(6.37e6 * (column(fine, n) - column(coarse, n)) for n in ("latitude", "longitude")))
     assert apart.max() < 1e-3 * coarse.distance_through_water

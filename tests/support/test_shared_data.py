@@ -18,5 +18,5 @@ def test_a_named_folder_that_lacks_the_data_fails(monkeypatch: pytest.MonkeyPatc
 
 def test_without_the_folder_the_reason_of_the_skip_names_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("STOMMEL_DATA", raising=False)
-    with pytest.raises(pytest.skip.Exception, match="no shared data: .*there-is-none.*STOMMEL_DATA names another"):
+    with pytest.raises(pytest.skip.Exception, match=r"no shared data: .*there-is-none.*STOMMEL_DATA names another"):
         shared_data("there-is-none")

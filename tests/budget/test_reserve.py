@@ -55,3 +55,18 @@ def test_a_narrow_area_is_covered() -> None:
     assert not {"reserve_exhausted", "reserve_slow"} & {warning.name for warning in study.warnings}
     between = budget_study(ZJU, (1017.0, 1023.5))
     assert "reserve_slow" in {warning.name for warning in between.warnings}
+
+
+def test_the_band_of_flights_is_where_the_design_speed_is_just_reached() -> None:
+    """Archimedes: at its ends the engine has the trim solver's ballast left, above on the shrunken hull, and no more."""
+    left = budget_study(ZJU, 1020.0).reserve
+    assert left is not None
+    assert left.flies is not None
+    assert left.design_speed is not None
+    low, high = left.flies
+    dive, climb = (
+        trim(ZJU, speed_m_s=left.design_speed, pitch_deg=pitch, within_limits=False).V_b for pitch in (-35.0, 35.0)
+    )
+    mass, volume = 1020.0 * 0.060, 0.060
+    assert mass / high - volume + dive == pytest.approx(-250e-6, rel=1e-6)
+    assert mass / low - volume + climb + left.compression == pytest.approx(250e-6, rel=1e-6)

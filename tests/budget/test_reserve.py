@@ -58,7 +58,7 @@ def test_a_narrow_area_is_covered() -> None:
 
 
 def test_the_band_of_flights_is_where_the_design_speed_is_just_reached() -> None:
-    """Archimedes: at its ends the engine has the trim solver's ballast left, above on the shrunken hull, and no more."""
+    """Archimedes: at its ends the engine has just the trim solver's ballast left, above on the shrunken hull."""
     left = budget_study(ZJU, 1020.0).reserve
     assert left is not None
     assert left.flies is not None

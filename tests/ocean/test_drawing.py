@@ -121,7 +121,7 @@ def test_arrows_point_where_the_water_goes(arctic20: Path) -> None:
     assert checked > 50
 
 
-def test_the_marks_of_the_map_say_the_side(arctic20: Path) -> None:
+def test_the_marks_of_the_map_say_the_side() -> None:
     axes = drawn(Ocean.analytic("east_china_sea"), 0.0, 0.0).axes[0]
     marks = {text.get_text() for text in axes.texts} | {
         text.get_text() for one in axes.collections for text in getattr(one, "labelTexts", [])

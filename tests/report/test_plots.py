@@ -13,6 +13,7 @@ import pytest
 from stommel.analysis import RootLocus, root_locus
 from stommel.errors import OutputError
 from stommel.figures.saving import png_bytes, save_figure, svg_text
+from stommel.figures.style import at_least_span
 from stommel.report.plots import (
     authority_figure,
     envelope_figure,
@@ -269,3 +270,15 @@ def test_an_unwritable_folder_is_reported_and_nothing_is_left(zju, tmp_path):
         save_figure(vehicle_figure(zju.vehicle), tmp_path / "plot")
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["file", "plot.png"]
     assert list(Path(tmp_path / "plot.png").iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "span"), [(0.0, 10.0, 1.0), (3.0, 3.0, 0.5), (-2.0, -1.9, 1.0), (0.0, 1.0, 1.0)]
+)
+def test_an_axis_holds_all_that_is_drawn_and_is_no_narrower_than_asked(low, high, span):
+    first, last = at_least_span(low, high, span)
+    assert first < low
+    assert last > high
+    assert last - first >= span
+    assert 0.5 * (first + last) == pytest.approx(0.5 * (low + high))
+    assert last - first < 1.3 * max(high - low, span)

@@ -152,3 +152,12 @@ def test_each_scale_of_a_column_shows_its_own_quantity() -> None:
                 depth = float(line.get_ydata()[k])
                 value = getattr(ocean.at(0.0, 30.0, 125.0, depth), name) - (1000.0 if label == "Density" else 0.0)
                 assert line.get_xdata()[k] == pytest.approx(value, abs=5e-3), (name, depth)
+
+
+def test_nothing_is_shown_below_the_bottom() -> None:
+    ocean = Ocean.analytic("east_china_sea")
+    for depth in (0.0, 60.0, 150.0, 800.0):
+        layer = layer_of(ocean, 0.0, depth)
+        there = np.abs(layer.bottom - depth) > 0.5
+        for shown in (layer.temperature, layer.east, layer.north):
+            assert np.array_equal(np.isfinite(shown)[there], (layer.bottom > depth)[there])

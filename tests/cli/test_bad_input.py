@@ -48,6 +48,7 @@ def refused(found: Outcome, *words: str) -> None:
         (("envelope", "zju", "--speed", 0.4), ["go together"]),
         (("derivative", "zju", "--states", "nowhere.json"), ["nowhere.json", "No such file"]),
         (("vehicle", "new", "no.toml", "--from", "sub"), ["--from sub"]),
+        (("vehicle", "new", "x" * 400), ["FILE xxx", "cannot be written: File name too long"]),
     ],
 )
 def test_refused(stommel: Command, arguments: tuple[object, ...], words: list[str]) -> None:

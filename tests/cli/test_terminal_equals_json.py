@@ -291,6 +291,7 @@ def simulated(d: Any) -> dict[str, Any]:
         "voltage": [d["battery_end_v"], d["battery_least_v"]],
         "navigation": [d["reckoning_error_m"]["mean"], d["reckoning_error_m"]["greatest"]],
         "current": [d["current_error_m_s"]["mean"], d["current_error_m_s"]["greatest"]],
+        "speed": [d[key] for key in ("flown_speed_m_s", "asked_speed_m_s") if d[key] is not None],
         "CTD": d["ctd_samples"],
         "events": ", ".join(f"{name}: {count}" for name, count in d["events"].items()) or "none",
     }  # fmt: skip
@@ -776,3 +777,31 @@ def test_oceans_are_listed_with_their_parameters(folder: Path) -> None:
         for name, value in ocean["parameters"].items()
     ]
     assert [[name, rest.split()[0]] for name, rest in told] == wanted
+
+
+def waypoint(number: int, *, reached: bool) -> Row:
+    row = dict.fromkeys(("closest_m", "distance_at_end_m", "leg_length_km", "leg_time_hours", "leg_made_good_m_s",
+                         "beside_line_greatest_m"), 1000.0 + number)  # fmt: skip
+    return row | {"number": number, "reached": reached, "reached_utc": "2026-07-02T03:04:05Z" if reached else None}
+
+
+@pytest.mark.parametrize(
+    ("planned", "reached", "first"),
+    [(5, 2, 1), (12, 12, 1), (30, 0, 1), (30, 10, 1), (30, 11, 2), (30, 20, 11), (30, 30, 19)],
+)
+def test_of_many_waypoints_the_last_that_were_reached_and_the_next_are_shown(
+    capsys: pytest.CaptureFixture[str], planned: int, reached: int, first: int
+) -> None:
+    """Twelve rows: among them always the one that was sought at the end, and the one after it."""
+    from stommel.cli.simulate import _show_waypoints
+
+    rows = [waypoint(k + 1, reached=k < reached) for k in range(planned)]
+    _show_waypoints(rows)
+    text = capsys.readouterr().out
+    (table,) = tables(text)
+    shown = rows[first - 1 : first + 11]
+    assert [row["no."] for row in table.rows] == [str(row["number"]) for row in shown]
+    rows_hold(table, shown, WAYPOINTS)
+    sought = min(reached + 1, planned)
+    assert str(sought) in [row["no."] for row in table.rows]
+    assert (f"12 of {planned} waypoints are shown" in text) is (planned > 12)

@@ -5,9 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.quiver import Quiver
 
 from stommel.ocean import BelowBottomError, LandError, Ocean, OutsideOceanError
-from stommel.ocean.pictures.drawing import draw_ocean, layer_of
+from stommel.ocean.pictures.drawing import Layer, draw_ocean, layer_of
 
 FIRST_DAY = 1454328000.0
 
@@ -84,3 +85,70 @@ def test_nothing_is_drawn_of_what_is_not_there(arctic20: Path) -> None:
 def test_tides_say_when(arctic20: Path) -> None:
     assert "1970-01-01T00:00:00Z" in labels(drawn(Ocean.analytic("east_china_sea"), 0.0, 0.0))
     assert "1970" not in labels(drawn(Ocean.analytic("gyre"), 0.0, 0.0))
+
+
+def in_plane(layer: Layer, latitude: float, longitude: float, east: float, north: float) -> float:
+    """Bearing in the plane [rad] of a current, from the nodes' own places around the nearest one."""
+    away = (layer.latitude - latitude) ** 2 + ((layer.longitude - longitude) * np.cos(np.radians(latitude))) ** 2
+    j, i = np.unravel_index(int(np.argmin(away[1:-1, 1:-1])), away[1:-1, 1:-1].shape)
+    here = (slice(j, j + 3), slice(i, i + 3))
+    wide = np.cos(np.radians(layer.latitude[here]))
+    places = np.stack([(layer.longitude[here] - layer.longitude[j + 1, i + 1]) * wide, layer.latitude[here]])
+    a, b = (places[:, 2, 1] - places[:, 0, 1]) / 2.0, (places[:, 1, 2] - places[:, 1, 0]) / 2.0
+    one, other = np.linalg.solve(np.column_stack([a, b]), [east, north])
+    x, y = layer.x[here], layer.y[here]
+    along = one * (x[2, 1] - x[0, 1]) + other * (x[1, 2] - x[1, 0])
+    up = one * (y[2, 1] - y[0, 1]) + other * (y[1, 2] - y[1, 0])
+    return float(np.arctan2(up, along))
+
+
+def test_arrows_point_where_the_water_goes(arctic20: Path) -> None:
+    """On a plane where north is not up, by the places of the nodes around each arrow."""
+    ocean = Ocean.open(arctic20)
+    layer = layer_of(ocean, FIRST_DAY, 50.0)
+    axes = drawn(ocean, FIRST_DAY, 50.0, (72.0, 10.0)).axes[0]
+    (arrows,) = (one for one in axes.collections if isinstance(one, Quiver))
+    checked = 0
+    for (x, y), along, up in zip(arrows.get_offsets(), np.ma.filled(arrows.U), np.ma.filled(arrows.V), strict=True):
+        j, i = np.unravel_index(int(np.argmin((layer.x - x) ** 2 + (layer.y - y) ** 2)), layer.x.shape)
+        east, north = layer.east[j, i], layer.north[j, i]
+        if not (np.isfinite(east) and 0 < j < layer.x.shape[0] - 1 and 0 < i < layer.x.shape[1] - 1):
+            continue
+        assert np.hypot(along, up) == pytest.approx(np.hypot(east, north), abs=1e-9)
+        wanted = in_plane(layer, layer.latitude[j, i], layer.longitude[j, i], east, north)
+        assert abs((np.arctan2(up, along) - wanted + np.pi) % (2.0 * np.pi) - np.pi) < 0.1
+        checked += 1
+    assert checked > 50
+
+
+def test_the_marks_of_the_map_say_the_side(arctic20: Path) -> None:
+    axes = drawn(Ocean.analytic("east_china_sea"), 0.0, 0.0).axes[0]
+    marks = {text.get_text() for text in axes.texts} | {
+        text.get_text() for one in axes.collections for text in getattr(one, "labelTexts", [])
+    }
+    told = [mark for mark in marks if mark.endswith(("°N", "°S", "°E", "°W"))]
+    assert told
+    assert all(25.0 <= float(mark[:-2]) <= 31.8 for mark in told if mark[-1] == "N")
+    assert all(122.0 <= float(mark[:-2]) <= 130.3 for mark in told if mark[-1] == "E")
+    assert not [mark for mark in told if mark[-1] in "SW"]
+    (point,) = (line for line in axes.get_lines() if line.get_marker() == "o")
+    assert len(point.get_xdata()) == 1
+
+
+def test_each_scale_of_a_column_shows_its_own_quantity() -> None:
+    ocean = Ocean.analytic("two_layer", upper_east_m_s=0.3, lower_north_m_s=-0.2)
+    figure = drawn(ocean, 0.0, 0.0)
+    expected = {
+        "Temperature": ("temperature",), "Absolute Salinity": ("absolute_salinity",), "Density": ("density",),
+        "Current to east (dotted) and north (dashed)": ("current_east", "current_north"),
+    }  # fmt: skip
+    for axes, (label, names) in zip(figure.axes, expected.items(), strict=True):
+        assert axes.get_xlabel().startswith(label)
+        low, high = axes.get_ylim()
+        assert low > high == 0.0
+        for line, name, dashes in zip(axes.lines, names, ((":", "--") if len(names) > 1 else (None,)), strict=True):
+            assert dashes is None or line.get_linestyle() == dashes
+            for k in range(0, len(line.get_ydata()), 40):
+                depth = float(line.get_ydata()[k])
+                value = getattr(ocean.at(0.0, 30.0, 125.0, depth), name) - (1000.0 if label == "Density" else 0.0)
+                assert line.get_xdata()[k] == pytest.approx(value, abs=5e-3), (name, depth)

@@ -42,7 +42,7 @@ def _authority(study: DesignStudy) -> Rows:
     told = study.as_json()["authority"]
     return [
         ["Pitch per moving mass", told["pitch_deg_per_mm"], ...],
-        ["Speed per ballast volume", told["speed_m_s_per_ml"] * 1e3, ...],
+        ["Speed per ballast volume", told["speed_m_s_per_ml"], ...],
         ["Turn rate per angle of rudder", told["turn_rate_deg_s_per_rudder_deg"], ...],
         ["Turn rate per angle of rolled mass", None, ...],
         ["Peak pitch rate after a step of the moving mass", told["peak_pitch_rate_deg_s_per_mm"], ...],
@@ -92,8 +92,10 @@ def _engine(study: DesignStudy) -> Rows:
     for place, run in study.engine.runs:
         for phase in run.as_json()["phases"]:
             piston = [phase["piston_begin_mm"], phase["piston_end_mm"]]
-            rows.append([f"{phase['phase']} {place}", phase["duration_s"], phase["volume_ml"], piston, phase["energy_j"],
-                         phase["peak_current_a"], 100.0 * phase["pump_efficiency"], phase["outcome"]])  # fmt: skip
+            rows.append([
+                f"{phase['phase']} {place}", phase["duration_s"], phase["volume_ml"], piston, phase["energy_j"],
+                phase["peak_current_a"], 100.0 * phase["pump_efficiency"], phase["outcome"],
+            ])  # fmt: skip
     return rows
 
 

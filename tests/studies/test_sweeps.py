@@ -16,6 +16,7 @@ from stommel.studies.study import load_study
 from stommel.studies.study_file import StudyFile
 from tests.studies.conftest import UNIFORM, Write
 from tests.support.command import run_here
+from tests.support.terminal import tables
 
 SWEPT = """
 kind = "sweep"
@@ -139,6 +140,32 @@ def test_terminal_shows_a_row_for_each_combination(swept: tuple[Finished, Path])
     assert all(f"wrote pictures/{name}" in shown.out for name in names)
 
 
+def test_every_number_of_the_terminal_is_taken_anew_from_the_result(swept: tuple[Finished, Path]) -> None:
+    _, folder = swept
+    shown = run_here(folder, "study", "study.toml", "--output", "r.nc")
+    assert shown.status == 0, shown.err
+    result = xr.load_dataset(folder / "r.nc")
+    whole, *groups = tables(shown.out)[:-1]
+    assert whole.columns == ("output", "mean", "sd", "least", "greatest")
+    assert {row["output"] for row in whole.rows} >= {"dives", "distance_made_good_km", "mean_power_w"}
+    for row in whole.rows:
+        values = result[row["output"]].values.ravel()
+        told = (values.mean(), values.std(ddof=1), values.min(), values.max())
+        assert [row[key] for key in whole.columns[1:]] == [f"{value:.6g}" for value in told]
+    words = {"dives": "dives", "distance made good km": "distance_made_good_km", "mean power W": "mean_power_w"}
+    seen = set()
+    for group in groups:
+        pitch, depth, *outputs = group.columns
+        assert (pitch.split()[0], depth.split()[0]) == ("pitch", "depth")
+        for row in group.rows:
+            runs = result.sel(pitch_deg=float(row[pitch]), depth_m=float(row[depth]))
+            for heading in outputs:
+                values = runs[words[heading]].values
+                assert row[heading] == f"{values.mean():.4g} ± {values.std(ddof=1):.2g}"
+                seen.add(heading)
+    assert seen == set(words)
+
+
 def test_selection_is_said(folder: Path, write: Write) -> None:
     study = write('kind = "sweep"\n[[parameters]]\nkey = "mission.dives.pitch_deg"\nvalues = [25, 35]\n')
     shown = run_here(folder, "study", study, "--workers", 1, "--output", "s.nc")
@@ -161,6 +188,12 @@ def test_pictures_of_a_sweep_show_the_means(swept: tuple[Finished, Path]) -> Non
         assert line.get_label() == f"depth {depth} m"
         assert list(line.get_xdata()) == [20.0, 40.0]
         assert np.asarray(line.get_ydata()) == pytest.approx(result.sel(depth_m=depth).values)
+    assert {one.get_xlabel() for one in figure.axes[: len(names)]} == {"Pitch [degrees]"}
+    spread = done.dataset["mean_power_w"].std("repeat", ddof=1)
+    for bars, depth in zip(axes.containers, (30, 40), strict=True):
+        (lines,) = bars.lines[2]  # type: ignore[attr-defined]
+        halves = [0.5 * (end[1] - begin[1]) for begin, end in lines.get_segments()]
+        assert halves == pytest.approx(spread.sel(depth_m=depth).values)
 
 
 def test_pictures_of_runs_show_every_run(folder: Path, write: Write) -> None:
@@ -175,6 +208,9 @@ def test_pictures_of_runs_show_every_run(folder: Path, write: Write) -> None:
         (dots,) = axes.get_lines()
         assert np.asarray(dots.get_xdata()) == pytest.approx([run[k] for run in done.study.values])
         assert np.asarray(dots.get_ydata()) == pytest.approx(done.outputs["mean_power_w"])
+    assert histogram.get_xlabel() == by_pitch.get_ylabel() == "Mean power [W]"
+    assert by_pitch.get_xlabel() == "Pitch [degrees]"
+    assert by_current.get_xlabel() == "Current east [m/s]"
     found = done.sensitivity
     assert found is not None
     bars: Any = sensitivity_figure(done).axes[0].containers
@@ -182,6 +218,10 @@ def test_pictures_of_runs_show_every_run(folder: Path, write: Write) -> None:
         widths = [bar.get_width() for bar in group]
         rows = [found.outputs.index(name) for name in ("mean_power_w", "deepest_m")]
         assert widths == pytest.approx(found.measures["coefficient"][rows, j])
+        assert group.get_label() == ("Pitch [degrees]", "Current east [m/s]")[j]
+    # the bars of an output stand about its name
+    places: Any = [[bar.get_y() + 0.5 * bar.get_height() for bar in group] for group in bars]
+    assert np.mean(places, axis=0) == pytest.approx(sensitivity_figure(done).axes[0].get_yticks())
 
 
 @pytest.mark.parametrize(

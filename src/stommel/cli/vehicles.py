@@ -1,5 +1,6 @@
 """`stommel vehicles` and `stommel vehicle show|check|new`."""
 
+import os
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -127,7 +128,8 @@ _FILE = file_parser("FILE", ".toml")
 
 def _new_file(text: str) -> Path:
     """A bare name stands for a file of that name in this folder."""
-    bare = text.strip() and not set(text) & {".", "/", "\\"} and not Path(text).exists()
+    there = os.path.exists(text)  # noqa: PTH110 - Path.exists raises for a name that is too long
+    bare = text.strip() and not set(text) & {".", "/", "\\"} and not there
     return _FILE(f"{text}.toml" if bare else text)
 
 

@@ -121,3 +121,18 @@ def test_what_each_phase_asks_for() -> None:
         RECOVERY: (3e-4, 0.6),
         DRIFT: (1e-5, 0.0),
     }
+
+
+@pytest.mark.parametrize(("depth", "phase"), [(10.001, ASCENT), (10.0, DESCENT), (9.0, DESCENT)])
+def test_upper_turn_is_at_its_depth_and_no_deeper(depth: float, phase: int) -> None:
+    """Of dives that do not surface: by `turn_depth`, to the millimetre."""
+    plan = PLAN._replace(dives_per_surfacing=3.0)
+    found = next_dive_state(state(ASCENT), plan, T, NOW._replace(depth=depth, ballast=2e-4))
+    assert int(found.phase) == phase
+
+
+@pytest.mark.parametrize("early", [0.0, 4.0])
+def test_lower_turn_is_above_the_depth_by_the_way_of_the_turn(early: float) -> None:
+    plan = PLAN._replace(turns_early=early)
+    for depth, phase in ((100.0 - early - 1e-3, DESCENT), (100.0 - early, INFLECTION)):
+        assert int(next_dive_state(state(DESCENT), plan, T, NOW._replace(depth=depth)).phase) == phase

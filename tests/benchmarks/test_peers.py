@@ -111,7 +111,7 @@ def test_the_series_is_cut_into_dives(flight: Any, peer_gliderflight: Any) -> No
     for dive in dives:
         assert np.diff(dive["time"]) == pytest.approx(np.ones(len(dive["time"]) - 1))
         # bar; the dive turns in time not to be deeper than this
-        assert dive["pressure"].max() > flight.mission.scenario.dives.depth_m / 10.1
+        assert dive["pressure"].max() > flight.mission.scenario.dives.depth_m / 10.2
         assert dive["pressure"].min() > 0.05
     deep = (true["pressure"] > 3.0) & (true["pressure"] < 18.0)
     noise = np.std((measured["pitch"] - true["pitch"])[deep])

@@ -56,7 +56,7 @@ def test_mission_with_all_outputs(stommel: Command, plan: Path, tmp_path: Path) 
     row = done.json
     assert row["outcome"] == "time over"
     assert row["dives"] >= 3
-    assert 99.0 < row["deepest_m"] < 110.0
+    assert 95.0 < row["deepest_m"] <= 100.0  # no deeper than asked
     assert len(row["written"]) == 1 + 6 * 2 + 1
     assert row["speed_up"] is None
     assert all((tmp_path / name).stat().st_size > 1000 for name in row["written"])

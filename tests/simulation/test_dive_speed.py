@@ -14,12 +14,9 @@ from tests.simulation.conftest import column, flown, made, mission_document, sta
 STILL = {"name": "still"}
 
 
-@pytest.mark.parametrize("speed", [0.3, 0.4, 0.5])
-@pytest.mark.parametrize("ocean", ["still", "south_china_sea"])
-def test_the_speed_of_dives_is_the_mean_along_the_path(speed: float, ocean: str) -> None:
+@pytest.mark.parametrize(("ocean", "speed"), [("still", 0.3), ("still", 0.4), ("still", 0.5), ("south_china_sea", 0.5)])
+def test_the_speed_of_dives_is_the_mean_along_the_path(ocean: str, speed: float) -> None:
     """Way over time while no oil flows; getting under way from the surface costs some per cent of it."""
-    if ocean == "south_china_sea" and speed < 0.5:
-        pytest.skip("this water is faster, see below")
     found = flown(
         ocean={"name": ocean}, dives={"depth_m": 190.0, "pitch_deg": 35.0, "speed_m_s": speed}, duration_days=0.4
     )
@@ -72,7 +69,7 @@ def test_no_dive_is_deeper_than_its_depth(ocean: str, depth: float, speed: float
     found = flown(ocean={"name": ocean}, dives=dives, duration_days=0.12)
     deepest = column(found, "depth").max()
     assert deepest <= depth + 0.02 * depth
-    assert deepest > 0.8 * depth
+    assert deepest > 0.75 * depth
 
 
 def test_a_speed_and_a_greater_least_speed_are_refused() -> None:

@@ -72,6 +72,11 @@ def test_more_drive_than_the_engine_has_is_refused() -> None:
         flown(dives={"depth_m": 100.0, "pitch_deg": 35.0, "ballast_ml": 300.0})
 
 
+def test_more_ballast_at_the_surface_than_the_engine_has_is_refused() -> None:
+    with pytest.raises(StommelError, match=r"surface\.ballast_ml = 400: more than the buoyancy engine has, 250 ml"):
+        made(mission_document(surface={"ballast_ml": 400.0}))
+
+
 def test_trim_far_from_the_water_of_the_dives_is_refused() -> None:
     """Neutral at 300 m in a stratified sea, the vehicle would sink with 87 ml of oil outside."""
     with pytest.raises(

@@ -14,7 +14,7 @@ def refuse_impossible(mission: Mission) -> None:
     FileError
         Everything that is wrong, each with its key and value.
     """
-    wrong = [*_too_deep(mission), *_places(mission)]
+    wrong = [*_too_deep(mission), *_beyond_the_engine(mission), *_places(mission)]
     if not wrong:  # a place in the water can be asked for more
         wrong = [*_bottom(mission), *_end(mission)]
     if wrong:
@@ -27,6 +27,14 @@ def _too_deep(mission: Mission) -> Iterator[Problem]:
     if rating is not None and depth > rating:
         text = f"dives.depth_m = {depth:g}: deeper than the hull's rating, {rating:g} m"
         yield Problem(mission.origin, "dives.depth_m", text)
+
+
+def _beyond_the_engine(mission: Mission) -> Iterator[Problem]:
+    """A ballast volume at the surface that the buoyancy engine does not have."""
+    engine, wanted = mission.vehicle.description.actuators.buoyancy, mission.scenario.surface.ballast_ml
+    if engine is not None and wanted is not None and wanted > engine.range_ml[1]:
+        text = f"surface.ballast_ml = {wanted:g}: more than the buoyancy engine has, {engine.range_ml[1]:g} ml"
+        yield Problem(mission.origin, "surface.ballast_ml", text)
 
 
 def _places(mission: Mission) -> Iterator[Problem]:

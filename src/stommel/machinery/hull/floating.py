@@ -76,31 +76,27 @@ def tilt_share(form: HullForm, theta: float) -> float:
 
 
 @inlined
-def water_line(form: HullForm, theta: float, surplus: float) -> float:
-    """Where the water's surface crosses the axis of a floating vehicle, forward of the origin [m]."""
+def _of_raised_end(form: HullForm, theta: float, surplus: float, tail: Array, nose: Array) -> float:
+    """Value at a surplus volume [m3] of the table of the end that is up; the less, the flatter the vehicle lies."""
     share = tilt_share(form, theta)
     if share == 0.0:
         return 0.0
-    line: float = (
-        interpolated(surplus, form.tail_volume, form.tail_line)
-        if theta < 0.0
-        else interpolated(surplus, form.nose_volume, form.nose_line)
+    value: float = (
+        interpolated(surplus, form.tail_volume, tail) if theta < 0.0 else interpolated(surplus, form.nose_volume, nose)
     )
-    return share * line
+    return share * value
+
+
+@inlined
+def water_line(form: HullForm, theta: float, surplus: float) -> float:
+    """Where the water's surface crosses the axis of a floating vehicle, forward of the origin [m]."""
+    return _of_raised_end(form, theta, surplus, form.tail_line, form.nose_line)
 
 
 @inlined
 def emerged_moment(form: HullForm, theta: float, surplus: float) -> float:
     """First moment of the volume out of the water along the axis [m4]."""
-    share = tilt_share(form, theta)
-    if share == 0.0:
-        return 0.0
-    moment: float = (
-        interpolated(surplus, form.tail_volume, form.tail_moment)
-        if theta < 0.0
-        else interpolated(surplus, form.nose_volume, form.nose_moment)
-    )
-    return share * moment
+    return _of_raised_end(form, theta, surplus, form.tail_moment, form.nose_moment)
 
 
 def slice_at(form: HullForm, theta: float, surplus: float) -> float:

@@ -1,0 +1,1 @@
+"""Instruments: drivers that turn bytes into readings, and devices that speak the same bytes in a simulation."""

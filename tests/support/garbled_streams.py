@@ -190,8 +190,9 @@ def _latitudes_in(stream: bytes) -> set[Value]:
     """Of two halves of sentences, one in 256 has a right checksum: no parser can tell."""
     found = set()
     for text in filter(nmea_is_right, _GGA.findall(stream)):
-        place = text.split(b",")[2]
-        found.add(round(int(place[:2]) + float(place[2:]) / 60.0, 6))
+        place = re.match(rb"(\d\d)(\d\d\.\d+)$", text.split(b",")[2])
+        if place:
+            found.add(round(int(place[1]) + float(place[2]) / 60.0, 6))
     return found
 
 

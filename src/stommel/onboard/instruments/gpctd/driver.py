@@ -172,11 +172,11 @@ class CtdDriver:
         cast = cast_of(text)
         if cast and len(self.casts) < _MOST_CASTS:
             self.casts[cast.number] = cast
+            self._lined = t
         elif not (cast or text.strip() in ("start", "stop", "UH") or text.startswith("UC")):
             self._refused += 1
             return []
-        self._good += 1
-        self._lined = t
+        self._good += 1  # an echo is understood, and says nothing about samples
         return []
 
     def _end_upload(self, t: float) -> None:

@@ -232,7 +232,7 @@ class Part:
 
 
 def garbage(parser: Parser, draw: random.Random, n: int) -> bytes:
-    """Noise, beginnings, runs of one byte, frames that have lost their end or beginning, and frames with flipped bits."""
+    """Noise, beginnings, runs of one byte, frames without their end or beginning, and frames with flipped bits."""
     kind = draw.randrange(6)
     if kind == 0:
         return draw.randbytes(draw.randrange(1, 200))

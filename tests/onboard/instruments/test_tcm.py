@@ -3,6 +3,7 @@
 import math
 import struct
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 
@@ -103,7 +104,7 @@ def test_status_says_distorted_and_uncalibrated() -> None:
 def test_readings_come_at_the_interval_that_was_set() -> None:
     driver, device = CompassDriver(CompassSettings(interval=5.0, silence=12.0)), CompassDevice()
     times = [reading.t for reading in flown(driver, device, 0, 40)]
-    assert {b - a for a, b in zip(times, times[1:], strict=False)} == {5.0}
+    assert {b - a for a, b in pairwise(times)} == {5.0}
 
 
 def test_restart_of_the_instrument_is_mended() -> None:

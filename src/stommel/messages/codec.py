@@ -129,7 +129,7 @@ class Decoder:
 
         A repeated frame has the counter of the one before it and is rejected; so is one that another has overtaken.
         A gap in the counter is counted as loss. After a node's restart, or after more than seven lost frames, one good
-        frame may look repeated or overtaken; the next one is taken.
+        frame may look repeated or overtaken, two at most; the next one is taken.
         """
         answer = self._take(frame)
         if isinstance(answer, Rejected):

@@ -75,10 +75,15 @@ def guard_of(identifier: int) -> Guard:
 
 
 @cache
-def sender_of(identifier: int) -> str:
-    """Name of the node that sends frames with an identifier; empty where the database has none."""
-    message = message_of(identifier)
-    return message.senders[0] if message is not None and message.senders else ""
+def sender_of(message: str) -> str:
+    """Name of the node that sends a message.
+
+    Raises
+    ------
+    KeyError
+        There is no such message.
+    """
+    return message_named(message).senders[0]
 
 
 @cache

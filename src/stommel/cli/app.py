@@ -19,6 +19,7 @@ from stommel.cli import (
     hull,
     modes,
     ocean,
+    orders,
     root_locus,
     simulate,
     steady,
@@ -64,6 +65,7 @@ app.command("steady")(steady.steady)
 app.command("turn")(turn.turn)
 app.command("envelope")(envelope.envelope)
 app.command("flight-table")(flight_table.flight_table)
+app.command("orders")(orders.orders)
 app.command("modes")(modes.modes)
 app.command("root-locus")(root_locus.root_locus)
 app.command("derivative")(derivative.derivative)

@@ -8,6 +8,7 @@ from stommel import __version__
 from stommel.cli import (
     bench,
     budget,
+    can,
     derivative,
     design,
     drives,
@@ -79,3 +80,4 @@ app.command("vehicles")(vehicles.vehicles)
 app.add_typer(vehicles.vehicle_app, name="vehicle")
 app.add_typer(bench.bench_app, name="bench")
 app.add_typer(ocean.ocean_app, name="ocean")
+app.add_typer(can.can_app, name="can")

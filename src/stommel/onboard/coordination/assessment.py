@@ -67,8 +67,7 @@ def situation_of(seen: Perception, inside: Inside, readings: Readings, t: float)
         ballast_silent=motion_late or not says("MotionStatus", "ballast_measured"),
         mass_silent=motion_late or not says("MotionStatus", "mass_measured"),
         steering_silent=motion_late or not says("MotionStatus", "steering_measured"),
-        pump_stuck=watch.reports(MOTION, "PumpStuck")
-        or (says("MotionDrives", "engine_stuck") and not valve_stuck),
+        pump_stuck=watch.reports(MOTION, "PumpStuck") or (says("MotionDrives", "engine_stuck") and not valve_stuck),
         valve_stuck=valve_stuck,
         mass_stuck=says("MotionDrives", "mass_stuck"),
         steering_stuck=says("MotionDrives", "steering_stuck"),

@@ -191,7 +191,10 @@ class Coordinator:
         )
         frames.append(
             frame(
-                "Switch", loads=commands.loads, sampling=commands.sampling, surface_radio=commands.radio,
+                "Switch",
+                loads=commands.loads,
+                sampling=commands.sampling,
+                surface_radio=commands.radio,
                 sample_interval=self.settings.sample_interval,
             )  # fmt: skip
         )

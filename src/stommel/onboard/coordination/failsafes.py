@@ -149,7 +149,7 @@ FAILSAFES = (
     Failsafe(
         "does not sink", "control dives, and the depth does not grow", SAFETY,
         lambda now, seen, *_: now.phase == DESCENT and not seen.submerged,
-        900.0, R.SURFACE, C.OPERATOR, 0.0, "OverDepth", "look at ballast, valve and pressure sensor",
+        900.0, R.SURFACE, C.OPERATOR, 0.0, "SilentInstrument", "look at ballast, valve and pressure sensor",
     ),
     # time
     Failsafe(
@@ -226,13 +226,13 @@ FAILSAFES = (
     ),
     # nodes and instruments
     Failsafe(
-        "silent motion node", "the motion node has missed its periods; it blows ballast by itself then", SAFETY,
-        lambda now, *_: now.motion_silent,
+        "silent motion node", "under water the motion node misses its periods; it blows ballast by itself then", SAFETY,
+        lambda now, seen, *_: now.motion_silent and seen.submerged,
         10.0, R.ABORT, C.OPERATOR, 0.0, "SilentNode", "look at bus and node, then clear",
     ),
     Failsafe(
-        "silent acquisition node", "the acquisition node has missed its periods: the vehicle is blind", SAFETY,
-        lambda now, *_: now.acquisition_silent,
+        "silent acquisition node", "under water the acquisition node misses its periods: the vehicle is blind", SAFETY,
+        lambda now, seen, *_: now.acquisition_silent and seen.submerged,
         10.0, R.ABORT, C.OPERATOR, 0.0, "SilentNode", "look at bus and node, then clear",
     ),
     Failsafe(
@@ -253,7 +253,7 @@ FAILSAFES = (
     Failsafe(
         "pressure sensor stuck", "the depth stands still in a descent or an ascent: the vehicle is blind", SAFETY,
         lambda now, seen, *_: (
-            (now.phase == DESCENT or now.phase == ASCENT) and seen.submerged and seen.depth_still
+            now.phase in (DESCENT, ASCENT) and seen.submerged and seen.depth_still
         ),
         180.0, R.ABORT, C.OPERATOR, 0.0, "SilentInstrument", "look at pressure sensor, ballast and bottom",
     ),

@@ -47,6 +47,9 @@ class ActuatorLimits(NamedTuple):
     """Moving-mass position for coming up [m]."""
     r_px_surface: float
     """Moving-mass position that raises the antenna [m]."""
+    r_px_calling: float
+    """Where an aborted vehicle that has come up to stay puts the moving mass [m]: that of `r_px_surface` where its
+    antenna is in the tail, else that of `r_px_nose_up`."""
     steering: float
     """Greatest angle of rudder or rolling mass to either side [rad]."""
     hold_mass: float

@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterable
 
 from stommel.control.readings import Readings
-from stommel.geometry.attitude import wrapped
 from stommel.messages.codec import Decoder, Received, Values
 from stommel.messages.database import ACQUISITION, MOTION
 from stommel.messages.frames import Frame
@@ -18,20 +17,17 @@ WATCHED = (MOTION, ACQUISITION)
 
 
 class Attitude:
-    """The last attitude by the compass: direction down, pitch and heading."""
+    """The last attitude by the compass."""
 
     def __init__(self) -> None:
         self.at = -math.inf
-        self.down = (0.0, 0.0, 1.0)
+        """When it was measured [s]."""
+        self.down_b2, self.down_b3 = 0.0, 1.0
+        """Direction down along b2 and b3."""
         self.theta = self.psi = 0.0
-
-    def take(self, t: float, down: tuple[float, float, float], psi: float) -> None:
-        """Take a reading: the acceleration at rest, of any length, and the heading from true north [rad]."""
-        self.at, self.psi = t, wrapped(psi)
-        length = math.sqrt(down[0] * down[0] + down[1] * down[1] + down[2] * down[2])
-        if length > 0.0:
-            self.down = (down[0] / length, down[1] / length, down[2] / length)
-            self.theta = math.atan2(-self.down[0], math.hypot(self.down[1], self.down[2]))
+        """Pitch, and heading from true north [rad]."""
+        self.gravity = self.field = math.nan
+        """Strength of the acceleration [g] and of the magnetic field [uT]."""
 
 
 class Perception:
@@ -46,8 +42,9 @@ class Perception:
         self.attitude = Attitude()
         self.latest: dict[str, Values] = {}
         self.heard: dict[str, float] = {}
-        self.altitude = math.inf
-        self._began = t
+        self.began = t
+        self.compass_patience = SILENT_AFTER
+        """Time without a reading of the compass after which it is silent [s]."""
         self._fix: tuple[float, float, float] | None = None
 
     def take(self, frames: Iterable[Frame], t: float) -> list[Received]:
@@ -67,7 +64,7 @@ class Perception:
 
     def is_silent(self, message: str, t: float) -> bool:
         """Whether a message that comes each second has not come for too long."""
-        return t - self.heard.get(message, self._began) > SILENT_AFTER
+        return t - self.heard.get(message, self.began) > SILENT_AFTER
 
     def says(self, message: str, signal: str) -> bool:
         """Whether a bit of the last message is set; not before the first."""
@@ -85,8 +82,8 @@ class Perception:
         self._fix = None
         fix_t, latitude, longitude = fix or (0.0, 0.0, 0.0)
         return Readings(
-            down_b2=attitude.down[1],
-            down_b3=attitude.down[2],
+            down_b2=attitude.down_b2,
+            down_b3=attitude.down_b3,
             theta=attitude.theta,
             psi=attitude.psi,
             depth=depth.get("depth", 0.0),

@@ -44,7 +44,7 @@ class Situation(NamedTuple):
     ctd_silent: bool
     """Whether the payload measures and says nothing."""
     pressure_silent: bool
-    """The sensor of the depth."""
+    """The sensor of the depth, or the node that reads it."""
     altimeter_silent: bool
     """False where the vehicle has none."""
     leak_silent: bool

@@ -17,6 +17,8 @@ STIR = 0.2
 LONGEST_TICK = 10.0
 """A longer time between two situations counts as this [s]: a clock that jumps raises no alarm."""
 
+_DOWN = (DESCENT, DRIFT)
+
 
 @dataclass(slots=True)
 class Track:
@@ -27,7 +29,8 @@ class Track:
     tick: float = 0.0
     """Since the situation before [s], by the same clock."""
     submerged: bool = False
-    """Deeper than the waves, or was when the pressure sensor was last heard; a position says that it is not."""
+    """Deeper than the waves. Without a pressure sensor: was when it was last heard, or told to sink since, and has had
+    no position since."""
     speed_down: float = 0.0
     """Smoothed [m/s]."""
     sinking: bool = False
@@ -57,7 +60,7 @@ class Track:
         self.node_restarted = now.restarts > self._restarts
         self._restarts = now.restarts
         if now.pressure_silent:
-            self.submerged = self.submerged and not now.readings.fixed
+            self.submerged = (self.submerged or now.phase in _DOWN) and not now.readings.fixed
             self.sinking = False
         else:
             self._follow_depth(now.readings.depth, tick, submerged_depth)
@@ -76,7 +79,7 @@ class Track:
 
     def _follow_climb(self, now: Situation, tick: float) -> None:
         """Whether it is asked up and rises; a silent pressure sensor does not tell."""
-        self.asked_up = now.coming_up or now.phase not in (DESCENT, DRIFT)
+        self.asked_up = now.coming_up or now.phase not in _DOWN
         if not (self.asked_up and self.submerged):
             self.asked_up_for, self._risen_to, self.not_risen = 0.0, math.inf, False
             return

@@ -1,11 +1,11 @@
 """Frames out of a stream of bytes that may begin anywhere and hold anything."""
 
 from collections.abc import Callable
-from typing import Generic, NamedTuple, Optional, TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 F = TypeVar("F")
 
-Look = Callable[[bytes, int], Optional[tuple[F | None, int]]]
+Look = Callable[[bytes, int], tuple[F | None, int] | None]
 """What stands at a place of the bytes: a frame and where it ends; no frame and where to look next; None where it may
 be a frame of which the rest is still to come. It reads each byte a bounded number of times and asks for the rest of a
 bounded number of bytes only, so that a stream takes linear time and bounded memory."""

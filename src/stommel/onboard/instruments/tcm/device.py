@@ -141,9 +141,7 @@ class CompassDevice:
             number = payload[0]
             if number not in CONFIG_CODES:
                 return b""
-            return encoded(
-                Id.CONFIG_RESP, config_payload(number, self._config.get(number, 0), self._big_endian)
-            )
+            return encoded(Id.CONFIG_RESP, config_payload(number, self._config.get(number, 0), self._big_endian))
         said = config_value(payload, self._big_endian)
         if said is None:
             return b""

@@ -1,7 +1,7 @@
 """Datagrams of PNI's binary protocol (manual 1007537 r12, pages 33 to 41).
 
-`ByteCount u16 | FrameID u8 | payload | CRC-16 u16`. ByteCount counts everything, itself and the CRC included. It and the
-CRC are always big-endian. There is no byte to synchronise to: a frame is where byte count, identifier and CRC agree.
+`ByteCount u16 | FrameID u8 | payload | CRC-16 u16`. ByteCount counts everything, itself and the CRC included. It and
+the CRC are always big-endian. There is no byte to synchronise to: a frame is where count, identifier and CRC agree.
 """
 
 import re
@@ -54,7 +54,7 @@ class Id(IntEnum):
 MOST_COMPONENTS = 16
 MOST_TAPS = 32
 
-PAYLOADS: dict[int, tuple[int, int]] = {
+_VALUED: dict[int, tuple[int, int]] = {
     Id.MOD_INFO_RESP: (8, 8),
     Id.SET_DATA_COMPONENTS: (1, 1 + MOST_COMPONENTS),
     Id.DATA_RESP: (1, 1 + 5 * MOST_COMPONENTS),
@@ -72,15 +72,14 @@ PAYLOADS: dict[int, tuple[int, int]] = {
     Id.ACQ_PARAMS_RESP: (10, 10),
     Id.SET_MODE: (1, 1),
     Id.SET_MODE_RESP: (1, 1),
-} | dict.fromkeys(
-    (
-        *(Id.GET_MOD_INFO, Id.GET_DATA, Id.SAVE, Id.STOP_CAL, Id.POWER_DOWN, Id.SET_CONFIG_DONE, Id.SET_PARAM_DONE),
-        *(Id.START_INTERVAL_MODE, Id.STOP_INTERVAL_MODE, Id.POWER_UP, Id.GET_ACQ_PARAMS, Id.ACQ_PARAMS_DONE),
-        *(Id.POWER_DOWN_DONE, Id.FACTORY_USER_CAL, Id.FACTORY_USER_CAL_DONE, Id.TAKE_USER_CAL_SAMPLE),
-        *(Id.FACTORY_INCL_CAL, Id.FACTORY_INCL_CAL_DONE, Id.SYNC_READ),
-    ),
-    (0, 0),
+}
+_BARE: tuple[int, ...] = (
+    *(Id.GET_MOD_INFO, Id.GET_DATA, Id.SAVE, Id.STOP_CAL, Id.POWER_DOWN, Id.SET_CONFIG_DONE, Id.SET_PARAM_DONE),
+    *(Id.START_INTERVAL_MODE, Id.STOP_INTERVAL_MODE, Id.POWER_UP, Id.GET_ACQ_PARAMS, Id.ACQ_PARAMS_DONE),
+    *(Id.POWER_DOWN_DONE, Id.FACTORY_USER_CAL, Id.FACTORY_USER_CAL_DONE, Id.TAKE_USER_CAL_SAMPLE),
+    *(Id.FACTORY_INCL_CAL, Id.FACTORY_INCL_CAL_DONE, Id.SYNC_READ),
 )
+PAYLOADS = _VALUED | dict.fromkeys(_BARE, (0, 0))
 """Least and greatest bytes of payload of each frame. The manual allows 4091 in any; only these can be meant."""
 
 OVERHEAD = 5

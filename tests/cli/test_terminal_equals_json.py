@@ -696,6 +696,9 @@ ELSEWHERE = {
     "vehicle new": "prints a path",
     "bench generate": "prints a count",
     "ocean list": "below",
+    "can dump": "tests/messages/test_can_command.py, with can decode and can send",
+    "can decode": "as can dump",
+    "can send": "as can dump",
 }
 
 

@@ -3,8 +3,8 @@
 from math import inf, nan
 
 import pytest
-from stommel.messages.database import value_named
 
+from stommel.messages.database import value_named
 from tests.onboard.execution.motion_bench import AFT, FORE, HIGH, MotionBench
 
 ML, MM = 1e-6, 1e-3

@@ -112,7 +112,7 @@ class Axis:
     _keeps: float = 0.0
     """Speed at which the drive runs to keep the set point; zero while it runs towards a new one."""
     _current_untrue: bool = False
-    """Whether the current is too high although the motor does not run."""
+    """Whether the current was too high although the motor did not run: the last reaction then does without it."""
 
     @property
     def measured(self) -> bool:
@@ -214,8 +214,9 @@ class Axis:
 
     def _watch_current(self, t: float, current: float, running: bool) -> None:
         too_much = current > self.limits.current
-        self._current_untrue = too_much and not running
-        if too_much and running:
+        if not (running and too_much):
+            self._current_untrue = too_much
+        elif not self._current_untrue:
             (self.up if self.share > 0.0 else self.down).fail(t)
         # a motor at rest that took too much has not shown yet that it no longer does
         self.over_current = too_much or (self.over_current and not running)

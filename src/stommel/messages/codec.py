@@ -56,9 +56,10 @@ class UnsayableError(StommelError):
 
 
 class Encoder:
-    """Makes frames of words, each message with its own alive counter."""
+    """Makes frames of words, each message with its own alive counter, which begins at `first`."""
 
-    def __init__(self) -> None:
+    def __init__(self, first: int = 0) -> None:
+        self._first = first
         self._counters: Counter[str] = Counter()
 
     def frame(self, name: str, **values: float) -> Frame:
@@ -69,10 +70,10 @@ class Encoder:
         UnsayableError
             There is no such message, a signal is missing, or a value is outside of what the database allows.
         """
-        message = _known(name)
+        message = known_message(name)
         guard = guard_of(message.frame_id)
         if guard.counted:
-            values["alive_counter"] = self._counters[name] % TURNS
+            values["alive_counter"] = (self._first + self._counters[name]) % TURNS
         if guard.checked:
             values["checksum"] = 0
         try:
@@ -85,7 +86,14 @@ class Encoder:
         return Frame(message.frame_id, data)
 
 
-def _known(name: str) -> "Message":
+def known_message(name: str) -> "Message":
+    """Return a message by its name.
+
+    Raises
+    ------
+    UnsayableError
+        There is none; the sentence names the nearest.
+    """
     try:
         return message_named(name)
     except KeyError:

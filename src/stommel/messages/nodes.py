@@ -175,6 +175,28 @@ class NodeWatch:
         """Whether a watched node has missed too many heartbeats in a row."""
         return self._is_silent(self._nodes[NODES[node]], t)
 
+    def is_refused(self, node: int) -> bool:
+        """Whether a watched node is of another version, and not obeyed."""
+        return bool(self._nodes[NODES[node]].refused)
+
+    def state_of(self, node: int) -> int | None:
+        """State of a watched node, one of `NodeState`; None before its first heartbeat."""
+        return self._nodes[NODES[node]].state
+
+    def reports(self, node: int, fault: str) -> bool:
+        """Whether a watched node has told a fault, a word of its emergencies, and not that it is over."""
+        return fault in self._nodes[NODES[node]].emergencies
+
+    @property
+    def restarts_seen(self) -> int:
+        """How often watched nodes were seen to start anew."""
+        return sum(node.restarts_seen for node in self._nodes.values())
+
+    @property
+    def strangers(self) -> int:
+        """How many identifiers the database does not know."""
+        return len(self._strangers)
+
     def snapshot(self, t: float) -> Network:
         """Return all that is known at a time [s]."""
         nodes = tuple(self._report(node, t) for node in self._nodes.values())

@@ -26,7 +26,7 @@ class UnknownKindError(StommelError):
 
 
 def log(
-    file: Annotated[str, typer.Argument(metavar="FILE", help="A file of a vehicle's log, .log.")],
+    file: Annotated[str, typer.Argument(metavar="LOG", help="A file of a vehicle's log, .log.")],
     kind: Annotated[
         str | None, typer.Option("--kind", metavar="KIND", help="Also the records of this kind, such as event or ctd.")
     ] = None,

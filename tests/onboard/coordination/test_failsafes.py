@@ -90,9 +90,7 @@ CASES = {
     "no rise, last resort": _no_longer_rising(R.DROP_WEIGHT, coming_up=True),
     "does not sink": _flag(R.SURFACE, phase=DESCENT),
     "no surfacing": _flag(R.REPORT, event=ABORT_TIME),
-    "no surfacing, still under water": Case(
-        R.ABORT, _down(time_submerged=20001.0), _down(time_submerged=20000.0)
-    ),
+    "no surfacing, still under water": Case(R.ABORT, _down(time_submerged=20001.0), _down(time_submerged=20000.0)),
     "mission expired": _flag(R.SURFACE, mission_expired=True),
     "low battery": _flag(R.NO_DIVE, alarm=ABORT_BATTERY),
     "low voltage": _flag(R.SURFACE, voltage=20.9),
@@ -222,7 +220,7 @@ def test_row_is_over_as_its_column_says(row: Failsafe) -> None:
 @ROWS
 def test_reason_is_a_word_of_the_can_database(row: Failsafe) -> None:
     assert value_named("Abort", "reason", row.reason) > 0
-    assert row.words and row.what_to_do and row.reaction in REACTION_WORDS
+    assert all((row.words, row.what_to_do, row.reaction in REACTION_WORDS))
 
 
 def test_control_is_not_decided_again() -> None:

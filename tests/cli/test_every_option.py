@@ -90,6 +90,10 @@ CASES: dict[str, dict[str, Case]] = {
         "--output": ("zju", "--output t.toml", {"written": ["t.toml"]}),
         "--physics": ("zju", "--physics paper", {"physics": "paper", "flights.0.moving_mass_mm": CHANGED}),
     },
+    "orders": {
+        "--output": ("pool_trial", "--output o.toml", {"written": ["o.toml"]}),
+        "--expires-hours": ("pool_trial", "--expires-hours 5.5", {"expires_hours": 5.5}),
+    },
     "modes": {
         "--speed": ("zju", "--speed 0.31", {"flight.speed_m_s": 0.31, "longitudinal.0.real": CHANGED}),
         "--pitch": ("zju", "--pitch -22", {"flight.pitch_deg": -22.0, "longitudinal.0.real": CHANGED}),

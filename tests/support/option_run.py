@@ -28,6 +28,7 @@ CALLS: tuple[tuple[object, ...], ...] = (
     ("turn", "seawing", *FLIGHT, "--turn-rate", 0.005),
     ("envelope", "zju"),
     ("flight-table", "zju"),
+    ("orders", "pool_trial"),
     ("modes", "zju", *FLIGHT),
     ("root-locus", "zju", "--over", "wing_position", "--from", 0, "--to", 0.2, "--points", 3),
     ("derivative", "zju", "--states", "states.json"),

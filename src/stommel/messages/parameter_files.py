@@ -1,0 +1,33 @@
+"""A parameter store in two files, each written whole or not at all."""
+
+from pathlib import Path
+
+from stommel.files.whole import write_whole
+
+LONGEST = 4096
+"""More than 256 parameters take [bytes]."""
+
+
+class ParameterFiles:
+    """Copies `NAME.0` and `NAME.1` in a folder."""
+
+    def __init__(self, folder: Path, name: str) -> None:
+        self._paths = [folder / f"{name}.{copy}" for copy in (0, 1)]
+
+    def read(self, copy: int) -> bytes | None:
+        """Return a copy; None if there is no such file."""
+        try:
+            with self._paths[copy].open("rb") as file:
+                return file.read(LONGEST)
+        except FileNotFoundError:
+            return None
+
+    def write(self, copy: int, content: bytes) -> None:
+        """Replace a copy.
+
+        Raises
+        ------
+        OutputError
+            It cannot be written; what stood there before still does.
+        """
+        write_whole(self._paths[copy], content)

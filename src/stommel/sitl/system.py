@@ -6,7 +6,7 @@ motion-control node obeys; all through frames of the bus and bytes of the instru
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import degrees, nan
+from math import degrees
 
 from stommel.control.commands import GOING_ON
 from stommel.messages.database import ACQUISITION, COORDINATOR, MOTION

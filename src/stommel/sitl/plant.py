@@ -10,6 +10,8 @@ from stommel.control.readings import Readings
 from stommel.dynamics.equations import state_from_array
 from stommel.dynamics.state import DEPTH, R_PX
 from stommel.geometry.vectors import Vector, add, matrix_times, to_body
+from stommel.ocean.kernel.column import water_at
+from stommel.ocean.kernel.grid import TIME, Column
 from stommel.simulation.flight import Flown, flown_of
 from stommel.simulation.mission_loop import OUTCOMES, RUNNING, begin_step, end_driven_step
 from stommel.simulation.plant.driven import AS_NEW, Drives, Wear
@@ -18,6 +20,7 @@ from stommel.simulation.plant.sensing import disturbing_field
 from stommel.simulation.plant.sensors import Sensors
 from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.setup import Setup, prepare
+from stommel.simulation.writing import salinity_at
 
 FLAT = 1e-6
 """Voltage below which a battery gives nothing [V]."""
@@ -30,12 +33,36 @@ def felt_field(sensors: Sensors, world: np.record, x: np.ndarray) -> Vector:
     return add(add(b, sensors.hard_iron), disturbing_field(sensors, world))
 
 
+class WaterFelt(NamedTuple):
+    """What the CTD feels."""
+
+    pressure: float
+    """Of the sea [Pa]."""
+    thermistor: float
+    """Temperature of the lagging thermistor [degC]."""
+    cell: float
+    """Temperature of the water in the conductivity cell [degC]."""
+    salinity: float
+    """Absolute Salinity [g/kg]."""
+
+
+@compiled
+def felt_water(column: Column, x: np.ndarray, world: np.record, age: float) -> tuple[float, float, float, float]:
+    """What the CTD feels, in the order of `WaterFelt`; `age` since the column was looked up [s]."""
+    water = water_at(column, x[DEPTH], age)
+    return water.P, world.thermistor, water.T - world.cell_error, salinity_at(column, x[DEPTH])
+
+
 class Currents(NamedTuple):
     """Of the motors while they ran [A]."""
 
     pump: float
     mass: float
     steering: float
+
+
+AT_REST = Currents(0.0, 0.0, 0.0)
+"""Of motors that stand."""
 
 
 class Felt(NamedTuple):
@@ -59,7 +86,7 @@ class Plant:
     tick: int = 0
     outcome: int = RUNNING
     _readings: Readings | None = None
-    _currents: Currents = Currents(0.0, 0.0, 0.0)
+    _currents: Currents = AT_REST
 
     @classmethod
     def of(cls, mission: Mission) -> "Plant":
@@ -109,6 +136,11 @@ class Plant:
         broken = self.wear.switches == 0.0
         field = felt_field(s.equipment.sensors, s.world, s.x)
         return Felt(self._readings, field, self._currents, fore and not broken, aft and not broken)
+
+    def water(self) -> WaterFelt:
+        """What the CTD feels at this step."""
+        s = self.setup
+        return WaterFelt(*felt_water(s.column, s.x, s.world, s.loop.start + self.time - float(s.column.place[TIME])))
 
     def move(self, drives: Drives, memory: np.record) -> None:
         """Let the power stages do what they are told for one step; `memory` of the software is written down.

@@ -191,9 +191,12 @@ class Coordinator:
         )
         frames.append(
             frame(
-                "Switch", loads=commands.loads, sampling=commands.sampling, surface_radio=commands.radio,
+                "Switch",
+                loads=commands.loads,
+                sampling=commands.sampling,
+                surface_radio=commands.radio,
                 sample_interval=self.settings.sample_interval,
-            )  # fmt: skip
+            )
         )
         frames += self._nodes.step(self.perception.watch, state, t)
         frames += self._heartbeat.poll(t, NodeState.Operational)

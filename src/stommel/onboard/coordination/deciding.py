@@ -76,9 +76,17 @@ class Pilot:
             self.memory.since = t
         try:
             instruct(self.memory, state, self.orders.step)
-            self._last = Commands(*self._decide(self.memory, self.orders, readings, t))
+            self._last = _plain(self._decide(self.memory, self.orders, readings, t))
             self.exceptions = 0
         except Exception as error:  # noqa: BLE001 - whatever it is, the vehicle must come up
             self.exceptions += 1
             self.failure = f"{type(error).__name__}: {error}"
         return self._last
+
+
+def _plain(c: Commands) -> Commands:
+    """The same in Python's own numbers, which NumPy's arithmetic leaves behind."""
+    return Commands(
+        float(c.r_px), float(c.V_b), float(c.steering), float(c.hold_mass), int(c.loads), bool(c.sampling),
+        bool(c.radio), int(c.ended),
+    )  # fmt: skip

@@ -14,8 +14,9 @@ PLAUSIBLE = 0.25
 """Part of the way by which a reading may lie beyond an end; farther off it is an error value."""
 BLIND = 1.5
 """Part of the whole way's time for which a drive runs towards its end without a sensor."""
-RARELY = 30.0
-"""Length of a pause in normal ones, once a drive has run for as long as its whole way takes and did not follow."""
+PATIENT, RARELY = 5.0, 150.0
+"""Longest pauses in the last reaction [s]: at first, and once a drive has run for as long as its whole way takes and
+was never seen to follow."""
 
 
 class AxisLimits(NamedTuple):
@@ -47,7 +48,8 @@ class Effort:
     """As last seen in this movement; not a number until then."""
     tries: int = 0
     """Failures in a row."""
-    rests_until: float = -inf
+    failed_at: float = -inf
+    """[s]"""
     run: float = 0.0
     moved: float = 0.0
     """Running time and way since the speed was last taken."""
@@ -79,11 +81,11 @@ class Effort:
             self.tries = 0
         return not follows
 
-    def fail(self, t: float, pause: float) -> None:
+    def fail(self, t: float) -> None:
         """Rest until the next try."""
         self.tries += 1
         self.watched = self.followed = 0.0
-        self.rests_until = t + pause
+        self.failed_at = t
 
 
 @dataclass
@@ -97,7 +99,7 @@ class Axis:
     over_current: bool = False
     """A motor took too much and was stopped; until it runs again without."""
     crept: float = 0.0
-    """Way by which it was found off a set point that it had reached, both directions added."""
+    """Way that it went to keep a set point that it had reached, both directions added."""
     up: Effort = field(default_factory=Effort)
     down: Effort = field(default_factory=Effort)
     _t: float = nan
@@ -107,8 +109,10 @@ class Axis:
     _moving: float = 0.0
     _held: float = nan
     """Set point that was reached last."""
+    _keeps: float = 0.0
+    """Speed at which the drive runs to keep the set point; zero while it runs towards a new one."""
     _current_untrue: bool = False
-    """Whether the current is too high although the motor does not run."""
+    """Whether the current was too high although the motor did not run: the last reaction then does without it."""
 
     @property
     def measured(self) -> bool:
@@ -128,7 +132,7 @@ class Axis:
         """Forget failures, as told."""
         self.over_current = False
         for effort in (self.up, self.down):
-            effort.tries, effort.rests_until, effort.blind = 0, -inf, 0.0
+            effort.tries, effort.failed_at, effort.blind = 0, -inf, 0.0
             effort.watched = effort.followed = 0.0
 
     def observe(self, t: float, reading: float, current: float) -> None:
@@ -144,6 +148,7 @@ class Axis:
         self._t, self._moved_before = t, self._moving
         self._watch_current(t, current, ran > 0.0)
         if ran > 0.0:
+            self.crept += ran * self._keeps
             self._learn(t, ran, before)
 
     def drive(
@@ -167,27 +172,31 @@ class Axis:
         if abs(missing) <= (STOPS_WITHIN * limits.tolerance if goes_on else limits.tolerance):
             self._held = goal
             return 0.0
-        if goal == self._held:
-            self.crept += abs(missing)
-        self._held = nan
         self._moving = copysign(1.0, missing)
         effort, may, fastest = (
             (self.up, may_up, limits.fastest_up) if missing > 0.0 else (self.down, may_down, limits.fastest_down)
         )
         if not goes_on:
             effort.begin()
-        if may and self._may_try(effort, endless):
+        if may and self._may_try(effort, self._moving, endless):
             speed = fastest if isnan(effort.speed) else effort.speed
             self.share = copysign(min(1.0, abs(missing) / (speed * interval)), missing)
+            self._keeps = speed if goal == self._held else 0.0
         return self.share
 
-    def _may_try(self, effort: Effort, endless: bool) -> bool:
-        return self._t >= effort.rests_until and (endless or not self.given_up(effort))
+    def _may_try(self, effort: Effort, direction: float, endless: bool) -> bool:
+        pause = self.limits.pause
+        if endless:
+            # settings that are wrong must not keep the vehicle down
+            often = effort.tries * self.limits.stuck_after < self._blind_time(direction)
+            pause = min(pause, PATIENT) if often else RARELY
+        return self._t >= effort.failed_at + pause and (endless or not self.given_up(effort))
 
     def _drive_blindly(self, direction: float, may_up: bool, may_down: bool) -> None:
         effort, may = (self.up, may_up) if direction > 0.0 else (self.down, may_down)
-        if may and effort.blind < self._blind_time(direction) and self._may_try(effort, endless=True):
+        if may and effort.blind < self._blind_time(direction) and self._may_try(effort, direction, endless=True):
             self.share = self._moving = direction
+            self._keeps = 0.0
 
     def _blind_time(self, direction: float) -> float:
         limits = self.limits
@@ -201,17 +210,13 @@ class Axis:
             return
         effort.blind = 0.0
         if not isnan(before) and effort.learn(ran, direction * (self.reading - before), expected, self.limits):
-            self._fail(t, effort, direction)
+            effort.fail(t)
 
     def _watch_current(self, t: float, current: float, running: bool) -> None:
         too_much = current > self.limits.current
-        self._current_untrue = too_much and not running
-        if too_much and running:
-            direction = copysign(1.0, self.share)
-            self._fail(t, self.up if direction > 0.0 else self.down, direction)
+        if not (running and too_much):
+            self._current_untrue = too_much
+        elif not self._current_untrue:
+            (self.up if self.share > 0.0 else self.down).fail(t)
         # a motor at rest that took too much has not shown yet that it no longer does
         self.over_current = too_much or (self.over_current and not running)
-
-    def _fail(self, t: float, effort: Effort, direction: float) -> None:
-        often = effort.tries * self.limits.stuck_after < self._blind_time(direction)
-        effort.fail(t, self.limits.pause if often else RARELY * self.limits.pause)

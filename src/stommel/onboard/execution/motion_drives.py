@@ -115,8 +115,11 @@ class MotionDrives:
         drop: bool,
         endless: bool = False,
     ) -> DriveOutputs:
-        """Go to set points; None stops a drive."""
-        oil = self.engine.drive(ballast, interval, endless)
+        """Go to set points; None stops a drive.
+
+        In the last reaction, which is `endless`, the valve stays shut, even with more oil outside than there may be.
+        """
+        oil = self.engine.drive(ballast, interval, endless, may_down=not endless)
         switches = self.switches
         r_px = self.mass.drive(moving_mass, interval, endless, not switches.fore, not switches.aft)
         if switches.fore and switches.aft:

@@ -81,5 +81,9 @@ def parameters_of(settings: NodeSettings) -> list[Parameter]:
 
 def settings_with(settings: Settings, server: ParameterServer) -> Settings:
     """Return settings with a parameter server's values."""
-    values = {parameter.name: server[parameter.name] for parameter in server.parameters.values()}
+    values = {}
+    for name, (low, high, _, number) in _limits(settings).items():
+        if number is not None:
+            # a limit that 32 bits hold a little too large is the limit
+            values[name] = min(max(server[name], low), high)
     return replace(settings, **cast(dict[str, Any], values))

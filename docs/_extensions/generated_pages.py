@@ -19,6 +19,7 @@ from typing import Any, Literal, get_args, get_origin
 
 import can_tables
 import dive_cycle
+import vehicle_software
 from docutils import nodes
 from pydantic import BaseModel, BeforeValidator
 from sphinx.application import Sphinx
@@ -200,6 +201,11 @@ def write_pages(app: Sphinx) -> None:
     _write(folder / "can-messages.md", "".join(can_tables.can_tables()))
     _write(folder / "dive-cycle.md", "".join(dive_cycle.transition_table()))
     _write(folder / "dive-cycle.svg", dive_cycle.diagram())
+    _write(folder / "executive.md", "".join(vehicle_software.executive_table()))
+    _write(folder / "executive.svg", vehicle_software.executive_diagram())
+    _write(folder / "failsafes.md", "".join(vehicle_software.failsafe_table()))
+    _write(folder / "start-checks.md", "".join(vehicle_software.start_check_table()))
+    _write(folder / "conditions.md", "".join(vehicle_software.condition_table()))
     reference = folder / "reference"
     walked = pkgutil.walk_packages(stommel.__path__, "stommel.")
     packages = ["stommel", *(info.name for info in walked if info.ispkg)]

@@ -15,6 +15,7 @@ import pytest
 from stommel.bench import load_map, read_engine_log, read_pressure_test
 from stommel.bench.column_map import EngineLogMap
 from stommel.control.flight_table_file import read_flight_table
+from stommel.control.orders_file import read_orders
 from stommel.dynamics.state_files import read_states
 from stommel.machinery.engine import load_engine
 from stommel.machinery.hull import load_materials
@@ -23,6 +24,7 @@ from stommel.seawater import read_stratification
 from stommel.simulation.scenario.loading import load_mission
 from stommel.studies.study import load_study
 from stommel.vehicle import builtin_text, load_vehicle
+from tests.support.orders import ORDERS
 
 COLUMNS = """
 [columns]
@@ -103,6 +105,7 @@ TOML_KINDS: dict[str, tuple[Callable[[str], Any], Callable[[], str]]] = {
     ),
     "plan": (load_plan, lambda: PLAN),
     "flight table": (lambda path: str(read_flight_table(path)), lambda: FLIGHT_TABLE),
+    "orders": (lambda path: str(read_orders(path)), lambda: ORDERS),
     "study": (lambda path: load_study(path).file, lambda: STUDY),
     "engine": (load_engine, lambda: shipped("stommel.machinery.engine", "examples/high-pressure.toml")),
     "materials": (lambda path: load_materials(Path(path)), lambda: shipped("stommel.machinery.hull", "materials.toml")),

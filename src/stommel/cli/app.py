@@ -8,6 +8,7 @@ from stommel import __version__
 from stommel.cli import (
     bench,
     budget,
+    can,
     compass,
     derivative,
     design,
@@ -19,6 +20,7 @@ from stommel.cli import (
     hull,
     modes,
     ocean,
+    orders,
     root_locus,
     simulate,
     steady,
@@ -64,6 +66,7 @@ app.command("steady")(steady.steady)
 app.command("turn")(turn.turn)
 app.command("envelope")(envelope.envelope)
 app.command("flight-table")(flight_table.flight_table)
+app.command("orders")(orders.orders)
 app.command("modes")(modes.modes)
 app.command("root-locus")(root_locus.root_locus)
 app.command("derivative")(derivative.derivative)
@@ -79,3 +82,4 @@ vehicles.vehicle_app.command("calibrate-compass")(compass.calibrate_compass)
 app.add_typer(vehicles.vehicle_app, name="vehicle")
 app.add_typer(bench.bench_app, name="bench")
 app.add_typer(ocean.ocean_app, name="ocean")
+app.add_typer(can.can_app, name="can")

@@ -116,6 +116,13 @@ def fix(
 
 
 @inlined
+def oil_volume(x: np.ndarray, world: np.record) -> float:
+    """Ballast volume by the oil outside [m3]: leaked water and a dropped weight are in the state's ballast volume."""
+    volume: float = x[V_B] + world.leaked - world.dropped
+    return volume
+
+
+@inlined
 def measured_internal_pressure(sensors: Sensors, world: np.record) -> float:
     """Pressure in the hull by its sensor, without noise [Pa]."""
     pressure: float = world.internal_pressure + sensors.internal_pressure_bias
@@ -140,7 +147,7 @@ def sense(
         depth,
         altitude,
         x[R_PX],
-        x[V_B] + world.leaked,
+        oil_volume(x, world),
         world.steering,
         world.leaked > sensors.leak_volume,
         measured_internal_pressure(sensors, world),

@@ -297,7 +297,8 @@ def test_a_parameter_holds_at_once_is_kept_within_its_limits_and_outlasts_a_powe
     assert write(bench, 16, 30.0) == 0
     assert bench.node.settings.blow_after == 30.0
     assert write(bench, 16, 1e9) == 2  # OutOfRange
-    assert write(bench, 7, 0.02) == 0  # a limit that no 32-bit number is
+    assert write(bench, 7, 0.01) == 0  # ten times the vehicle's own, a limit that no 32-bit number is
+    assert write(bench, 7, 0.011) == 2
     assert write(bench, 99, 1.0) == 1  # NoSuchParameter
     bench.say("MotionParameterRequest", operation=6, parameter=0, value=0)
     bench.run(1)

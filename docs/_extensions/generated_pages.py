@@ -18,6 +18,7 @@ from types import ModuleType
 from typing import Any, Literal, get_args, get_origin
 
 import dive_cycle
+import node_tables
 from docutils import nodes
 from pydantic import BaseModel, BeforeValidator
 from sphinx.application import Sphinx
@@ -30,6 +31,8 @@ from stommel.files.docstrings import attribute_docstrings
 from stommel.files.sentences import allowed_range
 from stommel.files.table_keys import models_in
 from stommel.files.units import unit_of
+from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
+from stommel.onboard.execution.motion_settings import MotionSettings
 from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle.schema import VehicleFile
 
@@ -198,6 +201,10 @@ def write_pages(app: Sphinx) -> None:
     _write(folder / "validation.md", validation_report())
     _write(folder / "dive-cycle.md", "".join(dive_cycle.transition_table()))
     _write(folder / "dive-cycle.svg", dive_cycle.diagram())
+    _write(folder / "node-states.md", "".join(node_tables.transition_table()))
+    _write(folder / "node-states.svg", node_tables.diagram())
+    _write(folder / "motion-parameters.md", "".join(node_tables.parameter_table(MotionSettings())))
+    _write(folder / "acquisition-parameters.md", "".join(node_tables.parameter_table(AcquisitionSettings())))
     reference = folder / "reference"
     walked = pkgutil.walk_packages(stommel.__path__, "stommel.")
     packages = ["stommel", *(info.name for info in walked if info.ispkg)]

@@ -47,8 +47,11 @@ class MotionSettings(NodeSettings):
     steering_tolerance: float = setting(1.75e-3, 1e-6, 1.0, "rad", 8, 10.0)
     """Angle from which the steering moves."""
     pump_current_limit: float = setting(8.0, 0.01, 20.0, "A", 9, 2.0)
+    """Of the pump's motor; above it the motor is stopped."""
     mass_current_limit: float = setting(4.0, 0.01, 20.0, "A", 10, 2.0)
+    """Of the pitch drive's motor."""
     steering_current_limit: float = setting(4.0, 0.01, 20.0, "A", 11, 2.0)
+    """Of the steering motor."""
     stuck_after: float = setting(5.0, 1.0, 30.0, "s", 12)
     """Running time of a drive within which it must be seen to follow."""
     pause: float = setting(5.0, 0.1, 60.0, "s", 13)

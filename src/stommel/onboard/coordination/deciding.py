@@ -39,28 +39,28 @@ class Pilot:
     @property
     def phase(self) -> int:
         """Of the dive cycle."""
-        return SURFACE if self.memory is None else int(self.memory.phase)
+        return SURFACE if self.memory is None else int(self.memory["phase"])
 
     @property
     def event(self) -> int:
         """What happened last."""
-        return NOTHING if self.memory is None else int(self.memory.event)
+        return NOTHING if self.memory is None else int(self.memory["event"])
 
     @property
     def alarm(self) -> int:
         """What ends the mission."""
-        return NOTHING if self.memory is None else int(self.memory.alarm)
+        return NOTHING if self.memory is None else int(self.memory["alarm"])
 
     @property
     def submerged_since(self) -> float:
         """Time at which the vehicle left the surface [s]; not a number before a mission."""
-        return float("nan") if self.memory is None else float(self.memory.submerged_since)
+        return float("nan") if self.memory is None else float(self.memory["submerged_since"])
 
     def adopt(self, orders: Orders) -> None:
         """Fly other orders from now on: its way begins anew, what it knows of place and energy stays."""
         self.orders = orders
         if self.memory is not None:
-            memory = new_memory(self.memory.latitude, self.memory.longitude, self.memory.heading_wanted)
+            memory = new_memory(self.memory["latitude"], self.memory["longitude"], self.memory["heading_wanted"])
             for name in ("energy_used", "current_north", "current_east"):
                 memory[name] = self.memory[name]
             self.memory, self._last = memory, None

@@ -65,7 +65,7 @@ def orders(
         stommel=__version__,
         expires_hours=loaded.scenario.duration_days * 24.0 if expires_hours is None else expires_hours,
     )
-    told = _orders(loaded)
+    told = planned_orders(loaded)
     written = []
     if output is not None:
         write_orders(output, told, header)
@@ -73,7 +73,7 @@ def orders(
     finish(vars(header) | _row(told), written, as_json, lambda answer: _show(answer, header))
 
 
-def _orders(mission: "Mission") -> "Orders":
+def planned_orders(mission: "Mission") -> "Orders":
     """What the simulator flies the mission by."""
     from stommel.planning.ballasting import water_of
     from stommel.planning.orders import orders_of

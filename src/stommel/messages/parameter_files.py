@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
+from stommel.files.opening import exists, read_bytes
 from stommel.files.whole import write_whole
 
-LONGEST = 4096
-"""More than 256 parameters take [bytes]."""
+_MOST_MIB = 1
+"""More than 256 parameters take."""
 
 
 class ParameterFiles:
@@ -15,12 +16,15 @@ class ParameterFiles:
         self._paths = [folder / f"{name}.{copy}" for copy in (0, 1)]
 
     def read(self, copy: int) -> bytes | None:
-        """Return a copy; None if there is no such file."""
-        try:
-            with self._paths[copy].open("rb") as file:
-                return file.read(LONGEST)
-        except FileNotFoundError:
-            return None
+        """Return a copy; None if there is no such file.
+
+        Raises
+        ------
+        FileError
+            It cannot be read.
+        """
+        path = self._paths[copy]
+        return read_bytes(path, _MOST_MIB) if exists(path) else None
 
     def write(self, copy: int, content: bytes) -> None:
         """Replace a copy.

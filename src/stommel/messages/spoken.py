@@ -91,7 +91,8 @@ def sentence(frame: Frame, answer: Received | Rejected) -> str:
     for signal in message.signals:
         if signal.name not in GUARDS:
             value = spoken(message.name, signal.name, answer.values[signal.name])
-            words.append(f"{signal.name} {value} {signal.unit or ''}".rstrip())
+            shown = f"{value:.10g}" if isinstance(value, float) else value
+            words.append(f"{signal.name} {shown} {signal.unit or ''}".rstrip())
     lost = f" ({answer.lost} lost before)" if answer.lost else ""
     return f"{message.name}: {', '.join(words)}{lost}"
 

@@ -61,6 +61,10 @@ class Currents(NamedTuple):
     steering: float
 
 
+AT_REST = Currents(0.0, 0.0, 0.0)
+"""Of motors that stand."""
+
+
 class Felt(NamedTuple):
     """What the vehicle's sensors feel at the beginning of a step."""
 
@@ -82,7 +86,7 @@ class Plant:
     tick: int = 0
     outcome: int = RUNNING
     _readings: Readings | None = None
-    _currents: Currents = Currents(0.0, 0.0, 0.0)
+    _currents: Currents = AT_REST
 
     @classmethod
     def of(cls, mission: Mission) -> "Plant":

@@ -6,7 +6,9 @@ motion-control node obeys; all through frames of the bus and bytes of the instru
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import degrees, nan
+from math import degrees
+
+import numpy as np
 
 from stommel.control.commands import GOING_ON
 from stommel.messages.database import ACQUISITION, COORDINATOR, MOTION
@@ -147,6 +149,6 @@ class System:
         ended = GOING_ON if view is None else view.commands.ended
         return Drives(*outputs, switched.loads, switched.sampling, switched.radio, ended)
 
-    def _memory(self):  # type: ignore[no-untyped-def]
+    def _memory(self) -> np.record:
         memory = self.coordinator.pilot.memory
         return self.plant.setup.memory if memory is None else memory

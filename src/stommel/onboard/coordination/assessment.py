@@ -97,13 +97,11 @@ def _without_silent(readings: Readings, pressure: bool, vacuum: bool, battery: b
     if not (pressure or vacuum or battery or compass):
         return readings
     nan = math.nan
-    silent: dict[str, float] = {}
-    if pressure:
-        silent |= {"depth": nan}
-    if vacuum:
-        silent |= {"internal_pressure": nan}
-    if battery:
-        silent |= {"voltage": nan, "current": nan}
-    if compass:
-        silent |= {"theta": nan, "psi": nan}
-    return readings._replace(**silent)
+    return readings._replace(
+        depth=nan if pressure else readings.depth,
+        internal_pressure=nan if vacuum else readings.internal_pressure,
+        voltage=nan if battery else readings.voltage,
+        current=nan if battery else readings.current,
+        theta=nan if compass else readings.theta,
+        psi=nan if compass else readings.psi,
+    )

@@ -196,7 +196,7 @@ class Coordinator:
                 sampling=commands.sampling,
                 surface_radio=commands.radio,
                 sample_interval=self.settings.sample_interval,
-            )  # fmt: skip
+            )
         )
         frames += self._nodes.step(self.perception.watch, state, t)
         frames += self._heartbeat.poll(t, NodeState.Operational)

@@ -91,6 +91,6 @@ def instruct(memory: np.record, state: ExecutiveState, step: float) -> None:
     if phase in (DESCENT, DRIFT):
         memory.phase, memory.since = INFLECTION, t
     elif phase == SURFACE and not state.surfaced and not state.blind:
-        memory.phase, memory.since = ASCENT, t
+        memory.phase, memory.since, memory.submerged_since = ASCENT, t, t
     elif phase == SURFACE and memory.alarm == NOTHING and memory.under_way != 0:
         memory.since = t + step  # its stay begins with the next decision, again and again

@@ -1,4 +1,4 @@
-"""What the coordinator tells the nodes of the bus beside set points: to start, to test themselves, to forget a fault."""
+"""What the coordinator tells nodes beside set points: to start, to test themselves, to forget a fault."""
 
 from dataclasses import dataclass
 

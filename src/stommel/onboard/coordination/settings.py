@@ -20,13 +20,13 @@ class CoordinatorSettings:
     has_altimeter: bool = True
     declination: float = 0.0
     """From magnetic to true north, east positive."""
-    calibration: CompassCalibration = CompassCalibration()
-    masking: Masking = Masking()
+    calibration: CompassCalibration = field(default_factory=CompassCalibration)
+    masking: Masking = field(default_factory=Masking)
     sample_interval: float = 10.0
     """Between two samples of the CTD."""
     compass: CompassSettings = field(default_factory=lambda: CompassSettings(polled=False))
     gnss: GnssSettings = field(default_factory=GnssSettings)
-    kind: NodeKind = NodeKind(1, (0, 1, 0))
+    kind: NodeKind = field(default_factory=lambda: NodeKind(1, (0, 1, 0)))
     """Of this computer."""
     report_every: float = 60.0
     """Between two records of hull, battery and bus in the log."""

@@ -17,6 +17,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Literal, get_args, get_origin
 
+import can_tables
 import dive_cycle
 from docutils import nodes
 from pydantic import BaseModel, BeforeValidator
@@ -196,6 +197,7 @@ def write_pages(app: Sphinx) -> None:
     _write(folder / "vehicle-file.md", "".join(file_tables(VehicleFile, meanings["meaning"], "vehicle file")))
     _write(folder / "mission-file.md", "".join(file_tables(ScenarioFile, meanings["mission"], "mission file")))
     _write(folder / "validation.md", validation_report())
+    _write(folder / "can-messages.md", "".join(can_tables.can_tables()))
     _write(folder / "dive-cycle.md", "".join(dive_cycle.transition_table()))
     _write(folder / "dive-cycle.svg", dive_cycle.diagram())
     reference = folder / "reference"

@@ -302,6 +302,25 @@ CASES: dict[str, dict[str, Case]] = {
                    "--name temperature_c=odd_temperature_c", {"sample.temperature_c": CHANGED}),
         "--plot": ("east_china_sea", *PLOT),
     },
+    "can dump": {
+        "--interface": ("--seconds 0.1", "--interface virtual", {"interface": "virtual", "channel": "vehicle"}),
+        "--channel": ("--interface virtual --seconds 0.1", "--channel bench", {"channel": "bench"}),
+        "--bitrate": (
+            "--interface slcan --channel /dev/none --seconds 0.1", "--bitrate 500000",
+            {"refused": "--channel = '/dev/none': there is no such adapter"},
+        ),
+        "--seconds": ("--interface virtual --seconds 0.1", "--seconds 0.3", {"listened_s": 0.3}),
+    },
+    "can send": {
+        "--interface": ("Sync vehicle_time=1", "--interface virtual", {"interface": "virtual", "channel": "vehicle"}),
+        "--channel": ("Sync vehicle_time=1 --interface virtual", "--channel bench", {"channel": "bench"}),
+        "--bitrate": (
+            "Sync vehicle_time=1 --interface slcan --channel /dev/none", "--bitrate 500000",
+            {"refused": "--channel = '/dev/none': there is no such adapter"},
+        ),
+        "--times": ("Sync vehicle_time=1 --interface virtual", "--times 1", {"frames": CHANGED}),
+        "--period": ("Sync vehicle_time=1 --interface virtual", "--period 0.01", {"period_s": 0.01}),
+    },
 }  # fmt: skip
 
 ELSEWHERE = {
@@ -315,6 +334,7 @@ BASES_THAT_ARE_REFUSED = {
     ("root-locus", "--over"), ("root-locus", "--from"), ("root-locus", "--to"), ("derivative", "--states"),
     ("hull", "--materials"), ("budget", "--force"), ("simulate", "--list"), ("vehicle new", "--force"),
     ("bench generate", "--output"), ("bench analyse", "--map"), ("bench fit", "--map"),
+    ("can dump", "--interface"), ("can send", "--interface"),
 }  # fmt: skip
 """Without the option there is no answer at all."""
 

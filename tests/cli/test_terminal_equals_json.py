@@ -712,6 +712,9 @@ ELSEWHERE = {
     "vehicle log": "tests/onboard/coordination/test_log_command holds what it shows against what was logged",
     "bench generate": "prints a count",
     "ocean list": "below",
+    "can dump": "tests/messages/test_can_command.py, with can decode and can send",
+    "can decode": "as can dump",
+    "can send": "as can dump",
 }
 
 

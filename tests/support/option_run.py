@@ -46,6 +46,9 @@ CALLS: tuple[tuple[object, ...], ...] = (
     ("ocean", "show", "pool", "--at", "30,120"),
     ("simulate", "pool_trial"),
     ("study", "study.toml"),
+    ("can", "dump", "--interface", "virtual", "--seconds", 0.1),
+    ("can", "decode", "702#020000050000002A"),
+    ("can", "send", "Sync", "vehicle_time=1", "--interface", "virtual", "--times", 1),
 )
 """A sound call of every verb that takes options."""
 

@@ -8,6 +8,8 @@ from stommel import __version__
 from stommel.cli import (
     bench,
     budget,
+    can,
+    compass,
     derivative,
     design,
     drives,
@@ -76,6 +78,8 @@ app.command("budget")(budget.budget)
 app.command("simulate")(simulate.simulate)
 app.command("study")(study.study)
 app.command("vehicles")(vehicles.vehicles)
+vehicles.vehicle_app.command("calibrate-compass")(compass.calibrate_compass)
 app.add_typer(vehicles.vehicle_app, name="vehicle")
 app.add_typer(bench.bench_app, name="bench")
 app.add_typer(ocean.ocean_app, name="ocean")
+app.add_typer(can.can_app, name="can")

@@ -17,8 +17,8 @@ UNITS = {
     "mpa": "MPa", "kpa": "kPa", "pa": "Pa", "dbar": "dbar", "per_pa": "1/Pa",
     "ml_s": "ml/s", "ml_min": "ml/min", "ml_r": "ml/r", "ml_s_m": "ml s/m", "ml_s_mpa": "ml/(s MPa)",
     "m3_s_m": "m3 s/m", "mpa_ml": "MPa/ml", "mpa_s_ml": "MPa s/ml", "mpa_s2_ml2": "MPa s2/ml2",
-    # of electricity and energy
-    "a": "A", "ah": "A h", "v": "V", "ohm": "ohm", "w": "W", "wh": "W h", "j": "J",
+    # of electricity, energy and magnetic fields
+    "a": "A", "ah": "A h", "v": "V", "ohm": "ohm", "w": "W", "wh": "W h", "j": "J", "ut": "uT",
     # of the sea
     "c": "deg C", "per_k": "1/K", "psu": "psu", "g_kg": "g/kg", "conductivity_noise_s_m": "S/m", "sv": "Sv",
     # said in words

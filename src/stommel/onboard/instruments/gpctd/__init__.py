@@ -1,0 +1,1 @@
+"""The CTD: Sea-Bird's Glider Payload CTD."""

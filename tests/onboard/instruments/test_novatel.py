@@ -19,7 +19,7 @@ from stommel.onboard.instruments.gnss.novatel.codec import (
 from stommel.onboard.instruments.gnss.novatel.logs import BestPos, BestVel, Header, Log, Time, no_position
 
 BESTPOS = (
-    '#BESTPOSA,COM1,0,47.0,FINESTEERING,1803,27504.000,00000000,6145,9603;SOL_COMPUTED,L1_FLOAT,32.81519645735,'
+    "#BESTPOSA,COM1,0,47.0,FINESTEERING,1803,27504.000,00000000,6145,9603;SOL_COMPUTED,L1_FLOAT,32.81519645735,"
     '35.00791046612,19.9359,20.3000,WGS84,0.0363,0.0538,0.0956,"0",3.000,0.000,18,9,9,0,0,00,00,01*ecbd3409'
 )
 """NovAtel, ASCII to binary log conversion example; its binary twin ends c3 ef 64 d2."""

@@ -25,7 +25,15 @@ from stommel.onboard.coordination.compass.heading import attitude_of, heading_of
 from stommel.onboard.coordination.compass.learning import LearningError, learn
 from stommel.simulation.plant.sensing import compass
 from stommel.simulation.plant.world import new_world
-from tests.onboard.coordination.magnetic_vehicle import ALL, HARD_IRON, SOFT_IRON, STRENGTH, MagneticVehicle, away
+from tests.onboard.coordination.magnetic_vehicle import (
+    ALL,
+    HARD_IRON,
+    SOFT_IRON,
+    STRENGTH,
+    MagneticVehicle,
+    away,
+    samples_text,
+)
 from tests.support.command import Command
 
 QUIET = MagneticVehicle(60.0, tilt_noise=0.0, field_noise=0.0)
@@ -213,17 +221,6 @@ def test_what_cannot_be_learnt_is_named() -> None:
 
 
 # files
-
-
-def samples_text(vehicle: MagneticVehicle, noise: np.random.Generator) -> str:
-    lines = ["acceleration_x_g,acceleration_y_g,acceleration_z_g,field_x_ut,field_y_ut,field_z_ut,running"]
-    acceleration, field, _ = vehicle.turned_about(200, noise)
-    rows = [(tuple(a), tuple(b), "") for a, b in zip(acceleration, field, strict=True)]
-    for run in ("pump", "pump+valve", "pitch_drive"):
-        bits = sum(ACTUATORS[name] for name in run.split("+"))
-        for now, word in [(0, "")] * 10 + [(bits, run)] * 10 + [(0, "")] * 10:
-            rows.append((*vehicle.felt(0.0, -0.2, 1.0, now, noise), word))
-    return "\n".join([*lines, *(",".join([*(f"{x:.6f}" for x in (*a, *b)), word]) for a, b, word in rows)]) + "\n"
 
 
 def test_command_writes_what_the_vehicle_reads(stommel: Command, tmp_path: Path) -> None:

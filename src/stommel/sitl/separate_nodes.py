@@ -137,7 +137,7 @@ class SeparateNodes:
     def __enter__(self) -> Self:
         setup, system = self._system.plant.setup, self._system
         machinery = setup.equipment.plant
-        settings = {
+        settings: dict[str, Settings] = {
             "motion": motion_settings(machinery, setup.orders),
             "acquisition": acquisition_settings(machinery),
         }

@@ -22,8 +22,8 @@ from stommel.onboard.execution.motion_node import MotionNode
 from stommel.simulation.plant.driven import Drives
 from stommel.simulation.scenario.mission import Mission
 from stommel.sitl.can_bus import SimulatedBus
-from stommel.sitl.equipment import acquisition_settings, coordinator_settings, known_disturbances, motion_settings
 from stommel.sitl.ctd_port import CtdPort
+from stommel.sitl.equipment import acquisition_settings, coordinator_settings, known_disturbances, motion_settings
 from stommel.sitl.instruments import CompassPort, GnssPort, compass_truth
 from stommel.sitl.nodes import Acquisition, Bus, Motion
 from stommel.sitl.payload import NOTHING, Payload

@@ -10,6 +10,7 @@ from stommel.cli import (
     budget,
     can,
     compass,
+    configuration,
     derivative,
     design,
     drives,
@@ -23,6 +24,7 @@ from stommel.cli import (
     orders,
     root_locus,
     simulate,
+    sitl,
     steady,
     study,
     table,
@@ -79,7 +81,9 @@ app.command("simulate")(simulate.simulate)
 app.command("study")(study.study)
 app.command("vehicles")(vehicles.vehicles)
 vehicles.vehicle_app.command("calibrate-compass")(compass.calibrate_compass)
+vehicles.vehicle_app.command("config")(configuration.vehicle_config)
 app.add_typer(vehicles.vehicle_app, name="vehicle")
 app.add_typer(bench.bench_app, name="bench")
 app.add_typer(ocean.ocean_app, name="ocean")
 app.add_typer(can.can_app, name="can")
+app.add_typer(sitl.sitl_app, name="sitl")

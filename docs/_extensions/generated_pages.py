@@ -19,9 +19,9 @@ from typing import Any, Literal, get_args, get_origin
 
 import can_tables
 import dive_cycle
+import log_tables
 import node_tables
 import vehicle_software
-import log_tables
 from docutils import nodes
 from pydantic import BaseModel, BeforeValidator
 from sphinx.application import Sphinx

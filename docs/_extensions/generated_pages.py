@@ -21,6 +21,7 @@ import can_tables
 import dive_cycle
 import node_tables
 import vehicle_software
+import log_tables
 from docutils import nodes
 from pydantic import BaseModel, BeforeValidator
 from sphinx.application import Sphinx
@@ -212,6 +213,7 @@ def write_pages(app: Sphinx) -> None:
     )
     _write(folder / "validation.md", validation_report())
     _write(folder / "can-messages.md", "".join(can_tables.can_tables()))
+    _write(folder / "log-records.md", "".join(log_tables.log_tables()))
     _write(folder / "dive-cycle.md", "".join(dive_cycle.transition_table()))
     _write(folder / "dive-cycle.svg", dive_cycle.diagram())
     _write(folder / "executive.md", "".join(vehicle_software.executive_table()))

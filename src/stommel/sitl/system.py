@@ -23,8 +23,10 @@ from stommel.onboard.execution.motion_node import MotionNode
 from stommel.simulation.plant.driven import Drives
 from stommel.simulation.scenario.mission import Mission
 from stommel.sitl.can_bus import SimulatedBus
+from stommel.sitl.ctd_port import CtdPort
 from stommel.sitl.equipment import acquisition_settings, coordinator_settings, known_disturbances, motion_settings
-from stommel.sitl.instruments import CompassPort, CtdPort, GnssPort, compass_truth
+from stommel.sitl.instruments import CompassPort, GnssPort, compass_truth
+from stommel.sitl.nodes import Acquisition, Bus, Motion
 from stommel.sitl.payload import NOTHING, Payload
 from stommel.sitl.plant import Felt, Plant
 
@@ -65,9 +67,9 @@ class System:
         setup = self.plant.setup
         machinery, orders = setup.equipment.plant, setup.orders
         self.ports = Ports()
-        self.bus = SimulatedBus(NODES)
-        self.motion = MotionNode(motion_settings(machinery, orders))
-        self.acquisition = AcquisitionNode(acquisition_settings(machinery), ctd=self.ports.ctd)
+        self.bus: Bus = SimulatedBus(NODES)
+        self.motion: Motion = MotionNode(motion_settings(machinery, orders))
+        self.acquisition: Acquisition = AcquisitionNode(acquisition_settings(machinery), ctd=self.ports.ctd)
         scenario = mission.scenario
         settings = coordinator_settings(setup, scenario.sampling.every_s, known_disturbances(setup.equipment.sensors))
         self.coordinator = Coordinator(settings, 0.0, logbook=logbook, decision=decide)

@@ -1,6 +1,6 @@
 """The plant below the vehicle's electronics: what its sensors feel, and what its power stages move."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +15,7 @@ from stommel.ocean.kernel.grid import TIME, Column
 from stommel.simulation.flight import Flown, flown_of
 from stommel.simulation.mission_loop import OUTCOMES, RUNNING, begin_step, end_driven_step
 from stommel.simulation.plant.driven import AS_NEW, Drives, Wear
+from stommel.simulation.plant.hull_air import Hull
 from stommel.simulation.plant.parameters import PITCH_DRIVE, PUMP, STEERING
 from stommel.simulation.plant.sensing import disturbing_field
 from stommel.simulation.plant.sensors import Sensors
@@ -157,6 +158,11 @@ class Plant:
         )  # fmt: skip
         self._currents = self._currents_of(s.world.energy - energy, drives)
         self.tick += 1
+
+    def replace_hull(self, hull: Hull) -> None:
+        """Let the hull be another one from now on."""
+        if hull is not self.setup.equipment.hull:
+            self.setup = replace(self.setup, equipment=self.setup.equipment._replace(hull=hull))
 
     def flown(self) -> Flown:
         """Return what has been flown so far, as `stommel.fly_mission` does."""

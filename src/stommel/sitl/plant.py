@@ -7,8 +7,8 @@ import numpy as np
 
 from stommel.compilation import compiled
 from stommel.control.readings import Readings
-from stommel.dynamics.equations import state_from_array
-from stommel.dynamics.state import DEPTH, R_PX
+from stommel.dynamics.equations import net_weight, state_from_array
+from stommel.dynamics.state import DEPTH, R_PX, V_B
 from stommel.geometry.vectors import Vector, add, matrix_times, to_body
 from stommel.ocean.kernel.column import water_at
 from stommel.ocean.kernel.grid import TIME, Column
@@ -32,6 +32,14 @@ def felt_field(sensors: Sensors, world: np.record, x: np.ndarray) -> Vector:
     """Magnetic field at the compass in the body frame, in parts of the Earth's, with all iron and what runs now."""
     b = matrix_times(sensors.soft_iron, to_body(state_from_array(x).Q, sensors.field))
     return add(add(b, sensors.hard_iron), disturbing_field(sensors, world))
+
+
+@compiled
+def spare_buoyancy(vehicle: np.record, column: Column, depth: float, age: float, V_b: float) -> float:
+    """Volume by which the vehicle is too light at a depth [m3], negative if it sinks; `age` as for `felt_water`."""
+    water = water_at(column, depth, age)
+    spare: float = -net_weight(vehicle, water, V_b) / (water.rho * vehicle.g)
+    return spare
 
 
 class WaterFelt(NamedTuple):
@@ -158,6 +166,17 @@ class Plant:
         )  # fmt: skip
         self._currents = self._currents_of(s.world.energy - energy, drives)
         self.tick += 1
+
+    def spare(self, depth: float) -> float:
+        """Volume by which the vehicle as it is now would be too light at a depth [m3]; negative if it would sink."""
+        s = self.setup
+        age = s.loop.start + self.time - float(s.column.place[TIME])
+        return float(spare_buoyancy(s.equipment.vehicle, s.column, depth, age, float(s.x[V_B])))
+
+    @property
+    def oil(self) -> float:
+        """Oil outside, as ballast volume [m3]."""
+        return float(self.setup.x[V_B] + self.setup.world.leaked - self.setup.world.dropped)
 
     def replace_hull(self, hull: Hull) -> None:
         """Let the hull be another one from now on."""

@@ -16,7 +16,7 @@ from stommel.messages.database import ACQUISITION, COORDINATOR, MOTION, database
 from stommel.messages.frames import Frame
 from stommel.onboard.coordination.coordinator import COMPASS, GNSS, RADIO, Coordinator
 from stommel.onboard.coordination.logbook.framing import LogIdentity
-from stommel.onboard.coordination.logbook.logbook import Logbook, LogSettings
+from stommel.onboard.coordination.logbook.logbook import Logbook
 from stommel.onboard.coordination.safety import standing_alarms
 from stommel.onboard.coordination.situation import OperatorRequests
 from stommel.onboard.execution.acquisition_io import AcquisitionOutputs, AcquisitionReadings
@@ -149,7 +149,7 @@ class System:
         every, sensors = self.mission.scenario.sampling.every_s, setup.equipment.sensors
         if inject.disk is not None:
             identity = LogIdentity(__version__, database_hash(), self.mission.vehicle.name)
-            logbook = Logbook(inject.disk, LogSettings(), identity, inject.clock(t))
+            logbook = inject.new_logbook(inject.disk, identity, t)
         coordinator = Coordinator(
             coordinator_settings(setup, every, known_disturbances(sensors)), inject.clock(t), logbook=logbook,
             restarts=self.restarts[COORDINATOR], standing=standing, started=started, decision=inject.decision(),

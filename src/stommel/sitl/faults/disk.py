@@ -28,7 +28,6 @@ class MemoryDisk:
         for content in self.files.values():
             kept = int(draw.integers(content.synced, len(content.data), endpoint=True))
             del content.data[kept:]
-            content.synced = kept
 
     def sizes(self) -> dict[str, int]:
         """Every file by name, with its size in bytes."""

@@ -11,6 +11,8 @@ from stommel.control.decision import decide
 from stommel.control.orders import Orders
 from stommel.control.readings import Readings
 from stommel.messages.frames import Frame
+from stommel.onboard.coordination.logbook.framing import LogIdentity
+from stommel.onboard.coordination.logbook.logbook import Logbook, LogSettings
 from stommel.onboard.instruments.gpctd.device import CtdTruth
 from stommel.simulation.plant.hull_air import Hull
 from stommel.sitl.faults import table
@@ -49,6 +51,8 @@ class Injector:
         self.faults, self.disk = tuple(faults), disk
         self.acting: list[Acting] = []
         """Those that act now."""
+        self.logbooks: list[Logbook] = []
+        """Of each start of the coordinator."""
         self._all = [Acting(fault, seed) for fault in self.faults]
         self._bus = BusFaults()
         self._draw = np.random.default_rng((seed, 0))
@@ -134,6 +138,11 @@ class Injector:
             return commands
 
         return decision
+
+    def new_logbook(self, disk: MemoryDisk, identity: LogIdentity, t: float) -> Logbook:
+        """Return the logbook of a coordinator that starts, on the disk of the one before."""
+        self.logbooks.append(Logbook(disk, LogSettings(), identity, self.clock(t)))
+        return self.logbooks[-1]
 
     # inside
 

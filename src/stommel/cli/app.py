@@ -23,6 +23,7 @@ from stommel.cli import (
     orders,
     root_locus,
     simulate,
+    sitl,
     steady,
     study,
     table,
@@ -83,3 +84,4 @@ app.add_typer(vehicles.vehicle_app, name="vehicle")
 app.add_typer(bench.bench_app, name="bench")
 app.add_typer(ocean.ocean_app, name="ocean")
 app.add_typer(can.can_app, name="can")
+app.add_typer(sitl.sitl_app, name="sitl")

@@ -9,6 +9,7 @@ from math import inf
 import numpy as np
 
 from stommel.errors import StommelError
+from stommel.messages.database import COORDINATOR
 from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.setup import Setup
 from stommel.sitl.campaign.survival import Means, Struck, takes_buoyancy, unsurvivable
@@ -25,7 +26,7 @@ from stommel.sitl.campaign.verdict import (
 from stommel.sitl.faults.disk import MemoryDisk
 from stommel.sitl.faults.fault import Fault
 from stommel.sitl.faults.injector import Injector
-from stommel.sitl.system import COORDINATOR, System
+from stommel.sitl.system import System
 
 EXPIRY_BEFORE_END = 1800.0
 """How long before the flight's end the mission's time is over [s]: a vehicle with nothing broken is up by then."""

@@ -1,6 +1,7 @@
 """From many faults to the fewest that still do harm: delta debugging."""
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import TypeVar
 
 Part = TypeVar("Part")
@@ -32,7 +33,7 @@ def fewest(parts: Sequence[Part], fails: Callable[[tuple[Part, ...]], bool]) -> 
         return ()
     while len(left) >= 2:
         cuts = [round(k * len(left) / pieces) for k in range(pieces + 1)]
-        chunks = [left[a:b] for a, b in zip(cuts, cuts[1:], strict=False)]
+        chunks = [left[a:b] for a, b in pairwise(cuts)]
         rests = [tuple(k for k in left if k not in chunk) for chunk in chunks]
         smaller = next((each for each in chunks if tried(each)), None)
         if smaller is not None:

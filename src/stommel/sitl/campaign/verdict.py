@@ -3,12 +3,13 @@
 from math import isfinite
 from typing import NamedTuple
 
+from stommel.messages.database import COORDINATOR, MOTION
 from stommel.onboard.coordination.executive import State
 from stommel.onboard.coordination.logbook.reader import read_log
 from stommel.onboard.execution.motion_node import BLOWING
 from stommel.simulation.mission_loop import LOST, NOT_FINITE
 from stommel.sitl.faults.disk import MemoryDisk
-from stommel.sitl.system import COORDINATOR, MOTION, System
+from stommel.sitl.system import System
 
 AT_SURFACE = 3.0
 """True depth at which a vehicle counts as surfaced [m]."""

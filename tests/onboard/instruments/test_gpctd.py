@@ -20,9 +20,7 @@ UTC = 1784744597.0
 TRUTH = CtdTruth(123.456, 12.3456, 3.56789, UTC, 3663.4)
 
 
-def sampled(
-    driver: CtdDriver, device: CtdDevice, begin: int, end: int, truth: CtdTruth = TRUTH
-) -> list[CtdReading]:
+def sampled(driver: CtdDriver, device: CtdDevice, begin: int, end: int, truth: CtdTruth = TRUTH) -> list[CtdReading]:
     readings = []
     for t in range(begin, end):
         readings += driver.take(device.take(driver.poll(t), truth._replace(utc=UTC + t), t), t)
@@ -70,7 +68,14 @@ def test_other_lines_are_no_cast(line: str) -> None:
 def test_stored_samples_have_the_values_that_the_instrument_has(oxygen: bool) -> None:
     size = 20 if oxygen else 15
     assert sample(VECTOR[:size], oxygen, 0.0, UTC) is not None
-    for wrong in (VECTOR[: size - 1], VECTOR[: 35 - size], VECTOR[:size] + b"0", VECTOR[:size].lower(), b"", b"G" * size):
+    for wrong in (
+        VECTOR[: size - 1],
+        VECTOR[: 35 - size],
+        VECTOR[:size] + b"0",
+        VECTOR[:size].lower(),
+        b"",
+        b"G" * size,
+    ):
         assert sample(wrong, oxygen, 0.0, UTC) is None
 
 

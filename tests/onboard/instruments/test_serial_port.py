@@ -168,7 +168,9 @@ def test_unplugged_port_is_named_and_comes_back(tmp_path: Path) -> None:
 
 def test_absent_port_names_key_and_port() -> None:
     port = SerialPort(PortSettings("gnss.port", "/dev/ttyNOWHERE", 9600))
-    with pytest.raises(PortError, match=r"^gnss\.port = /dev/ttyNOWHERE: there is no such port; there (is|are) [^\n]+$"):
+    with pytest.raises(
+        PortError, match=r"^gnss\.port = /dev/ttyNOWHERE: there is no such port; there (is|are) [^\n]+$"
+    ):
         port.connect()
     assert port.read(0.0) == b""
     assert port.write(b"x", 0.0) == 0

@@ -11,6 +11,7 @@ from math import degrees
 import numpy as np
 
 from stommel.control.commands import GOING_ON
+from stommel.control.decision import decide
 from stommel.messages.database import ACQUISITION, COORDINATOR, MOTION
 from stommel.onboard.coordination.coordinator import COMPASS, GNSS, RADIO, Coordinator
 from stommel.onboard.coordination.logbook.logbook import Logbook
@@ -71,7 +72,7 @@ class System:
         self.acquisition: Acquisition = AcquisitionNode(acquisition_settings(machinery), ctd=self.ports.ctd)
         scenario = mission.scenario
         settings = coordinator_settings(setup, scenario.sampling.every_s, known_disturbances(setup.equipment.sensors))
-        self.coordinator = Coordinator(settings, 0.0, logbook=logbook)
+        self.coordinator = Coordinator(settings, 0.0, logbook=logbook, decision=decide)
         self.coordinator.adopt(orders)
         self.coordinator.request(OperatorRequests(start=True))
         self.payload = Payload(scenario)
@@ -102,7 +103,7 @@ class System:
     def _acquire(self, felt: Felt, t: float) -> None:
         """Let the acquisition node and its CTD have their step."""
         ctd = self.ports.ctd
-        latitude, longitude = degrees(self.plant.setup.world.latitude), degrees(self.plant.setup.world.longitude)
+        latitude, longitude = degrees(self.plant.setup.world["latitude"]), degrees(self.plant.setup.world["longitude"])
         sampling = self.switched.sampling
         truth = self.payload.truth(self.plant, latitude, longitude, self._utc(t)) if sampling else NOTHING
         said = ctd.exchange(self.ports.to_ctd, truth, t)
@@ -115,7 +116,7 @@ class System:
     def _bytes(self, felt: Felt, t: float) -> Mapping[str, bytes]:
         """Bytes of the coordinator's instruments."""
         ports, setup = self.ports, self.plant.setup
-        truth = compass_truth(felt, setup.equipment.sensors.declination, float(setup.world.thermistor))
+        truth = compass_truth(felt, setup.equipment.sensors.declination, float(setup.world["thermistor"]))
         return {
             COMPASS: ports.compass.exchange(ports.to.get(COMPASS, b""), truth, t),
             GNSS: ports.gnss.exchange(ports.to.get(GNSS, b""), felt, self._utc(t), t, on=self.switched.radio),
@@ -140,10 +141,10 @@ class System:
             leak_aft=False,
             leak_loop=True,
             internal_pressure=r.internal_pressure,
-            hull_temperature=float(world.air_temperature) - 273.15,
+            hull_temperature=float(world["air_temperature"]) - 273.15,
             voltage=r.voltage,
             current=r.current,
-            battery_temperature=float(world.air_temperature) - 273.15,
+            battery_temperature=float(world["air_temperature"]) - 273.15,
         )
 
     def _drives(self, outputs: DriveOutputs) -> Drives:

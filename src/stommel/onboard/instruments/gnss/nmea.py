@@ -10,8 +10,8 @@ from typing import Any
 from pynmeagps import VALNONE, NMEAReader
 from pynmeagps.exceptions import NMEAMessageError, NMEAParseError, NMEATypeError
 
-READ = ("GGA", "RMC", "ZDA", "GSA", "VTG")
-"""Sentences that are read; others pass by."""
+READ = {"GGA": 8, "RMC": 9, "ZDA": 4, "GSA": 16, "VTG": 6}
+"""Sentences that are read, with the fewest fields that say what is asked of them; others pass by."""
 _CHECKED = re.compile(rb"\$[A-Z0-9]{3,}[ -)+-~]*\*[0-9A-Fa-f]{2}\r\n")
 KNOT = 1852.0 / 3600.0
 """[m/s]"""
@@ -27,9 +27,14 @@ def believed(sentence: bytes) -> bool:
     return _CHECKED.fullmatch(sentence) is not None and checksum(sentence[1:-5]) == int(sentence[-4:-2], 16)
 
 
+def kind_of(sentence: bytes) -> str:
+    """Which sentence it is, of any talker."""
+    return sentence[3:6].decode("ascii")
+
+
 def parsed(sentence: bytes) -> Any | None:
     """Return one of the sentences `READ` that is `believed`, with its fields; None where they make no sense."""
-    if sentence[3:6].decode("ascii") not in READ:
+    if sentence.count(b",") < READ[kind_of(sentence)]:
         return None
     try:
         return NMEAReader.parse(sentence, validate=VALNONE)

@@ -21,6 +21,7 @@ OPENS = {
     "compilation/sources.py": "the package's own source",
     "design/published/__init__.py": "the package's own data",
     "ocean/reading/classic.py": "after files/opening.py has looked at the file",
+    "onboard/coordination/stores/folder.py": "the vehicle's own disk",
     "studies/study.py": "digest of ocean files that were read before",
     "studies/journal.py": "its lock",
     "studies/result.py": "what it has written itself",

@@ -11,12 +11,16 @@ from functools import reduce
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import typer
 
 from stommel.cli.app import app
+from stommel.onboard.coordination.logbook.framing import LogIdentity, encoder, header
+from stommel.onboard.coordination.logbook.records import CTD, ESSENTIAL
 from stommel.vehicle import builtin_text
 from tests.cli.test_terminal_equals_json import leaves
+from tests.onboard.coordination.magnetic_vehicle import MagneticVehicle, samples_text
 from tests.support.command import Outcome, run_here
 
 CHANGED = object()
@@ -89,6 +93,10 @@ CASES: dict[str, dict[str, Case]] = {
     "flight-table": {
         "--output": ("zju", "--output t.toml", {"written": ["t.toml"]}),
         "--physics": ("zju", "--physics paper", {"physics": "paper", "flights.0.moving_mass_mm": CHANGED}),
+    },
+    "orders": {
+        "--output": ("pool_trial", "--output o.toml", {"written": ["o.toml"]}),
+        "--expires-hours": ("pool_trial", "--expires-hours 5.5", {"expires_hours": 5.5}),
     },
     "modes": {
         "--speed": ("zju", "--speed 0.31", {"flight.speed_m_s": 0.31, "longitudinal.0.real": CHANGED}),
@@ -211,11 +219,25 @@ CASES: dict[str, dict[str, Case]] = {
         "--speed-up": ("short.toml", "--speed-up", {"speed_up": CHANGED, "flight_s": CHANGED}),
         "--list": ("", "--list", {"pool_trial": "Pool trial"}),
     },
+    "vehicle log": {
+        "--kind": ("torn.log", "--kind ctd", {"rows.0.t": 0.0, "rows.0.temperature": 10.0}),
+        "--salvage": ("torn.log", "--salvage", {"records": 3, "skipped_bytes": CHANGED}),
+    },
     "vehicle show": {"--toml": ("zju", "--toml", {})},
     "vehicle new": {
         "--from": ("a.toml --force", "--from seawing", {"from": "seawing", "written": ["a.toml"]}),
         "--with": ("a.toml --force", "--with hull,engine", {"sections": ["hull", "engine"]}),
         "--force": ("old.toml", "--force", {"written": ["old.toml"]}),
+    },
+    "vehicle config": {
+        "--output": ("zju", "--output begun", {"written": ["begun/CONFIG.toml"]}),
+        "--force": ("zju --output begun-before", "--force", {"written": ["begun-before/CONFIG.toml"]}),
+    },
+    "vehicle calibrate-compass": {
+        "--output": ("turned.csv", "--output c.toml", {"written": ["c.toml"]}),
+        "--iron": ("turned.csv", "--iron hard", {"correction.0.0": 1.0, "residual_ut": CHANGED}),
+        "--name": ("turned.csv --output c.toml --force", "--name north", {"name": "north"}),
+        "--force": ("turned.csv --output old.toml", "--force", {"written": ["old.toml"]}),
     },
     "bench generate": {
         "--output": ("zju --pressure-mpa 0 --speed-rpm 7000", "--output g.csv", {"written": ["g.csv", "g.toml"]}),
@@ -292,6 +314,25 @@ CASES: dict[str, dict[str, Case]] = {
                    "--name temperature_c=odd_temperature_c", {"sample.temperature_c": CHANGED}),
         "--plot": ("east_china_sea", *PLOT),
     },
+    "can dump": {
+        "--interface": ("--seconds 0.1", "--interface virtual", {"interface": "virtual", "channel": "vehicle"}),
+        "--channel": ("--interface virtual --seconds 0.1", "--channel bench", {"channel": "bench"}),
+        "--bitrate": (
+            "--interface slcan --channel /dev/none --seconds 0.1", "--bitrate 500000",
+            {"refused": "--channel = '/dev/none': there is no such adapter"},
+        ),
+        "--seconds": ("--interface virtual --seconds 0.1", "--seconds 0.3", {"listened_s": 0.3}),
+    },
+    "can send": {
+        "--interface": ("Sync vehicle_time=1", "--interface virtual", {"interface": "virtual", "channel": "vehicle"}),
+        "--channel": ("Sync vehicle_time=1 --interface virtual", "--channel bench", {"channel": "bench"}),
+        "--bitrate": (
+            "Sync vehicle_time=1 --interface slcan --channel /dev/none", "--bitrate 500000",
+            {"refused": "--channel = '/dev/none': there is no such adapter"},
+        ),
+        "--times": ("Sync vehicle_time=1 --interface virtual", "--times 1", {"frames": CHANGED}),
+        "--period": ("Sync vehicle_time=1 --interface virtual", "--period 0.01", {"period_s": 0.01}),
+    },
 }  # fmt: skip
 
 ELSEWHERE = {
@@ -304,7 +345,9 @@ BASES_THAT_ARE_REFUSED = {
     ("steady", "--ballast-ml"), ("turn", "--ignore-limits"), ("turn", "--turn-rate"), ("turn", "--radius"),
     ("root-locus", "--over"), ("root-locus", "--from"), ("root-locus", "--to"), ("derivative", "--states"),
     ("hull", "--materials"), ("budget", "--force"), ("simulate", "--list"), ("vehicle new", "--force"),
+    ("vehicle config", "--output"), ("vehicle config", "--force"), ("vehicle calibrate-compass", "--force"),
     ("bench generate", "--output"), ("bench analyse", "--map"), ("bench fit", "--map"),
+    ("can dump", "--interface"), ("can send", "--interface"),
 }  # fmt: skip
 """Without the option there is no answer at all."""
 
@@ -325,6 +368,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     state = {"velocity_m_s": [0.3, 0.0, 0.01], "angular_velocity_rad_s": [0.0, 0.1, 0.0],
              "attitude_deg": [0.0, -30.0, 0.0], "moving_mass_position_m": 0.4, "ballast_volume_m3": -1e-4}  # fmt: skip
     (path / "states.json").write_text(json.dumps([state]))
+    (path / "torn.log").write_bytes(TORN)
+    (path / "turned.csv").write_text(TURNED)
+    (path / "begun-before").mkdir()
+    (path / "begun-before" / "CONFIG.toml").write_text("in the way")
     (path / "short.toml").write_text(MISSION)
     (path / "mine.toml").write_text(MATERIAL)
     (path / "cast.csv").write_text(CAST)
@@ -334,6 +381,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (path / "strict.toml").write_text(text.replace("largest_loss_mpa = 0.1", "largest_loss_mpa = 0.05"))
     return path
 
+
+TURNED = samples_text(MagneticVehicle(60.0), np.random.default_rng(1))
+SAMPLE = encoder(CTD)
+TORN = header(LogIdentity("0", 1), 0, ESSENTIAL, 0) + b"".join(
+    SAMPLE(i, (float(i), 3.5, 10.0, 5.0)) if i != 1 else b"damaged" for i in range(4)
+)
+"""A log of four samples, of which the second is damaged."""
 
 MISSION = """
 format = 1

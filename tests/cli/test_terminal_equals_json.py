@@ -680,6 +680,21 @@ ALL = [
         },
     ),
     Told(
+        "orders pool_trial",
+        values=lambda d: {
+            "mission": None,
+            "vehicle": None,
+            "dives": [d["depth_m"], d["turns_early_m"]],
+            "pitch": d["pitch_deg"],
+            "ballast": None,
+            "waypoints": d["waypoints"],
+            "ends by": d["alarm_energy_wh"],
+            "dive ends": [d["abort_depth_m"], d["abort_hours"]],
+            "expires": d["expires_hours"],
+            "flight table": d["flights"],
+        },
+    ),
+    Told(
         "vehicle check zju",
         values=lambda d: {
             "mass": d["mass_kg"],
@@ -694,8 +709,12 @@ ELSEWHERE = {
     "study": "tests/studies/test_sweeps and test_running hold its tables against its statistics",
     "vehicle show": "below",
     "vehicle new": "prints a path",
+    "vehicle log": "tests/onboard/coordination/test_log_command holds what it shows against what was logged",
     "bench generate": "prints a count",
     "ocean list": "below",
+    "can dump": "tests/messages/test_can_command.py, with can decode and can send",
+    "can decode": "as can dump",
+    "can send": "as can dump",
 }
 
 
@@ -793,7 +812,7 @@ def test_of_many_waypoints_the_last_that_were_reached_and_the_next_are_shown(
     capsys: pytest.CaptureFixture[str], planned: int, reached: int, first: int
 ) -> None:
     """Twelve rows: among them always the one that was sought at the end, and the one after it."""
-    from stommel.cli.simulate import _show_waypoints
+    from stommel.cli.flown import _show_waypoints
 
     rows = [waypoint(k + 1, reached=k < reached) for k in range(planned)]
     _show_waypoints(rows)

@@ -46,6 +46,7 @@ WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
     "endurance": (("endurance", "zju", "--plot", "e.svg"), ["e.svg"]),
     "budget": (("budget", "zju", "--apply", "mine.toml", "--plot", "b.PNG"), ["mine.toml", "b.PNG"]),
     "flight-table": (("flight-table", "zju", "--output", "f.toml"), ["f.toml"]),
+    "orders": (("orders", "mission.toml", "--output", "new/o.toml"), ["new/o.toml"]),
     "simulate": (
         ("simulate", "mission.toml", "--output", "m.nc", "--track", "t.KML", "--plots", "all"),
         ["m.nc", "t.KML", *both("all", *PICTURES), "all/mission.html"],
@@ -76,6 +77,7 @@ SAVE_AS = {
     "study": (".nc", ".zarr"),
     "bench generate": (".csv",),
     "flight-table": (".toml",),
+    "orders": (".toml",),
 }
 """What the names of written files end with, by option; of --output by verb."""
 

@@ -18,7 +18,7 @@ from stommel.vehicle.loading import builtin_text, vehicle_from_text
 PURE = {
     # counts and choices
     "format", "runs", "repeat", "seed", "steps", "seconds", "dives_per_surfacing", "per_surfacing", "steady_steps",
-    "moving_steps",
+    "moving_steps", "guidance_every",
     "rudder_turns_per_dive", "pitch_corrections_per_dive", "fewest_rows", "stuck_rows", "saturated_rows", "longest_gap",
     "corrosion_grade", "machinability_grade",
     # shares, factors, ratios, coefficients of friction
@@ -60,8 +60,8 @@ def spelt(unit: str) -> str:
     words = {"deg C": "c", "degrees": "deg", "r/min": "rpm", "A h": "ah", "W h": "wh", "min": "minutes", "h": "hours"}
     if unit in words:
         return words[unit]
-    if unit == "mm/deg":
-        return "mm_per_deg"
+    if unit in ("mm/deg", "m/rad"):
+        return unit.replace("/", "_per_")
     if " per rad" in unit:
         forces, angle = unit.split(" per ")
         return f"per_{angle}_{spelt(forces)}"

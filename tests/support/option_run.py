@@ -28,6 +28,7 @@ CALLS: tuple[tuple[object, ...], ...] = (
     ("turn", "seawing", *FLIGHT, "--turn-rate", 0.005),
     ("envelope", "zju"),
     ("flight-table", "zju"),
+    ("orders", "pool_trial"),
     ("modes", "zju", *FLIGHT),
     ("root-locus", "zju", "--over", "wing_position", "--from", 0, "--to", 0.2, "--points", 3),
     ("derivative", "zju", "--states", "states.json"),
@@ -39,12 +40,16 @@ CALLS: tuple[tuple[object, ...], ...] = (
     ("vehicle", "show", "rogue"),
     ("vehicle", "check", "rogue"),
     ("vehicle", "new", "mine.toml", "--force"),
+    ("vehicle", "config", "zju", "--output", "begun", "--force"),
     ("bench", "generate", "zju", "--output", "made.csv", "--pressure-mpa", "0,1", "--speed-rpm", "5000,7000"),
     ("bench", "speed", "zju"),
     ("bench", "pressure", "fan2013-table5"),
     ("ocean", "show", "pool", "--at", "30,120"),
     ("simulate", "pool_trial"),
     ("study", "study.toml"),
+    ("can", "dump", "--interface", "virtual", "--seconds", 0.1),
+    ("can", "decode", "702#020000050000002A"),
+    ("can", "send", "Sync", "vehicle_time=1", "--interface", "virtual", "--times", 1),
 )
 """A sound call of every verb that takes options."""
 

@@ -8,6 +8,9 @@ from stommel import __version__
 from stommel.cli import (
     bench,
     budget,
+    can,
+    compass,
+    configuration,
     derivative,
     design,
     drives,
@@ -18,8 +21,10 @@ from stommel.cli import (
     hull,
     modes,
     ocean,
+    orders,
     root_locus,
     simulate,
+    sitl,
     steady,
     study,
     table,
@@ -63,6 +68,7 @@ app.command("steady")(steady.steady)
 app.command("turn")(turn.turn)
 app.command("envelope")(envelope.envelope)
 app.command("flight-table")(flight_table.flight_table)
+app.command("orders")(orders.orders)
 app.command("modes")(modes.modes)
 app.command("root-locus")(root_locus.root_locus)
 app.command("derivative")(derivative.derivative)
@@ -74,6 +80,10 @@ app.command("budget")(budget.budget)
 app.command("simulate")(simulate.simulate)
 app.command("study")(study.study)
 app.command("vehicles")(vehicles.vehicles)
+vehicles.vehicle_app.command("calibrate-compass")(compass.calibrate_compass)
+vehicles.vehicle_app.command("config")(configuration.vehicle_config)
 app.add_typer(vehicles.vehicle_app, name="vehicle")
 app.add_typer(bench.bench_app, name="bench")
 app.add_typer(ocean.ocean_app, name="ocean")
+app.add_typer(can.can_app, name="can")
+app.add_typer(sitl.sitl_app, name="sitl")

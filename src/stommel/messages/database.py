@@ -1,8 +1,10 @@
 """`glider.dbc`, the single source of what goes over the CAN bus."""
 
 import hashlib
+from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
+from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
@@ -74,6 +76,64 @@ def guard_of(identifier: int) -> Guard:
 
 
 @cache
+def sender_of(message: str) -> str:
+    """Name of the node that sends a message.
+
+    Raises
+    ------
+    KeyError
+        There is no such message.
+    """
+    return message_named(message).senders[0]
+
+
+@cache
+def limits_of(identifier: int) -> tuple[tuple[str, float, float], ...]:
+    """Signals whose bits can say more than is allowed, each with its lowest and its highest value.
+
+    They are half a step wider than the file says, as what was rounded on its way is not refused.
+    """
+    message = message_of(identifier)
+    found = []
+    for signal in message.signals if message is not None else ():
+        half, low, high = abs(signal.scale) / 2.0, signal.minimum, signal.maximum
+        if low is not None and high is not None and (high - low) / signal.scale < (1 << signal.length) - 1.5:
+            found.append((signal.name, low - half, high + half))
+    return tuple(found)
+
+
+@cache
+def sayable(message: str) -> dict[str, tuple[float, float]]:
+    """Lowest and highest value of each signal of a message; infinite where the file does not say.
+
+    Raises
+    ------
+    KeyError
+        There is no such message.
+    """
+    return {
+        signal.name: (
+            -inf if signal.minimum is None else float(signal.minimum),
+            inf if signal.maximum is None else float(signal.maximum),
+        )
+        for signal in message_named(message).signals
+    }
+
+
+@cache
+def words_of(message: str, signal: str) -> dict[int, str]:
+    """Words of an enumeration by their numbers; none for a signal that is a number.
+
+    Raises
+    ------
+    KeyError
+        There is no such message or signal.
+    """
+    choices: Mapping[int, object] = message_named(message).get_signal_by_name(signal).choices or {}
+    return {int(number): str(word) for number, word in choices.items()}
+
+
+@cache
 def value_named(message: str, signal: str, word: str) -> int:
     """Return the number that a word of an enumeration stands for.
 
@@ -82,13 +142,10 @@ def value_named(message: str, signal: str, word: str) -> int:
     KeyError
         The signal has no such word.
     """
-    choices = message_named(message).get_signal_by_name(signal).choices or {}
-    numbers = {str(choice): int(number) for number, choice in choices.items()}
-    return numbers[word]
+    return {name: number for number, name in words_of(message, signal).items()}[word]
 
 
 @cache
 def word_of(message: str, signal: str, value: int) -> str:
     """Return the word for a value of an enumeration; the number itself where it has none."""
-    choices = message_named(message).get_signal_by_name(signal).choices or {}
-    return str(choices.get(value, value))
+    return words_of(message, signal).get(value, str(value))

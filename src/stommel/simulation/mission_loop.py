@@ -15,6 +15,7 @@ from stommel.dynamics.equations import state_from_array
 from stommel.dynamics.state import DEPTH, R_PX, STATE_SIZE, V_B
 from stommel.geometry.attitude import attitude_of
 from stommel.geometry.earth import metres_per_radian, to_waypoint
+from stommel.geometry.vectors import Vector
 from stommel.machinery.hull.floating import water_line
 from stommel.ocean.kernel.column import fill_column, water_at
 from stommel.ocean.kernel.grid import BOTTOM, HELD, LAND, TIME, Column, OceanGrid
@@ -22,11 +23,12 @@ from stommel.seawater.table import DensityTable
 from stommel.seawater.water import Water
 from stommel.simulation.log import CELL, OUTSIDE_DATA, RATING_PASSED, Log
 from stommel.simulation.plant.actuators import actuate
+from stommel.simulation.plant.driven import Drives, Wear, drive
 from stommel.simulation.plant.hull_air import AIR_PERIOD, Hull, hold_air
 from stommel.simulation.plant.motion import advance, surplus_volume
 from stommel.simulation.plant.parameters import Plant
 from stommel.simulation.plant.power import consume
-from stommel.simulation.plant.sensing import feel_temperature, listen, sense
+from stommel.simulation.plant.sensing import feel_temperature, felt_field, listen, oil_volume, sense
 from stommel.simulation.plant.sensors import Sensors
 from stommel.simulation.plant.waves import Waves, antenna_emerges
 from stommel.simulation.timing import Loop
@@ -114,17 +116,22 @@ def _note(log, memory, world, before, t, depth):  # type: ignore[no-untyped-def]
 
 
 @inlined
-def _act(equipment, sea, loop, x, world, water, commands, noise, t):  # type: ignore[no-untyped-def]  # compiled only
-    """Do what the software commands: move, switch, listen."""
+def _act(equipment, loop, x, world, water, commands, t):  # type: ignore[no-untyped-def]  # compiled only
+    """Let the actuators obey their set points."""
+    theta = attitude_of(state_from_array(x).Q).theta
+    V_b = oil_volume(x, world)
+    return actuate(equipment.plant, world, commands, x[R_PX], V_b, water.P, theta, t, loop.control_step)
+
+
+@inlined
+def _switch(equipment, sea, loop, x, world, water, commands, noise, t):  # type: ignore[no-untyped-def]  # compiled only
+    """Switch what the software commands, and listen; `commands` may be `Drives`."""
     plant, step = equipment.plant, loop.control_step
     theta = attitude_of(state_from_array(x).Q).theta
-    V_b = x[V_B] + world.leaked
-    done = actuate(plant, world, commands, x[R_PX], V_b, water.P, theta, t, step)
     consume(plant, world, commands, t, step)
     line = water_line(plant.form, theta, surplus_volume(equipment.vehicle, water, x[V_B]))
     dry = world.afloat != 0 and antenna_emerges(sea.waves, plant.antenna, line, theta, t)
     listen(equipment.sensors, world, commands.radio, dry, t, step, noise)
-    return done
 
 
 @inlined
@@ -177,7 +184,19 @@ def _obey(  # type: ignore[no-untyped-def]  # compiled only
     """Act, write and move by the commands; returns RUNNING or how the mission ended."""
     t = tick * loop.control_step
     _note(log, memory, world, before, t, x[DEPTH])
-    done = _act(equipment, sea, loop, x, world, water, commands, noise, t)
+    done = _act(equipment, loop, x, world, water, commands, t)
+    return _go_on(
+        equipment, sea, loop, column, x, k, trial, memory, world, noise, log, water, readings, commands, done, tick
+    )
+
+
+@inlined
+def _go_on(  # type: ignore[no-untyped-def]  # compiled only
+    equipment, sea, loop, column, x, k, trial, memory, world, noise, log, water, readings, commands, done, tick
+):
+    """Switch, write and move while the actuators do what they do; returns RUNNING or how the mission ended."""
+    t = tick * loop.control_step
+    _switch(equipment, sea, loop, x, world, water, commands, noise, t)
     _write(equipment, loop, column, x, memory, world, water, readings, commands, done, noise, log, tick)
     advance(equipment, x, k, trial, world, done, loop, column, t)
     _warn_of_depth(equipment.hull, log, x, memory, world, t)
@@ -228,6 +247,47 @@ def end_step(
         equipment, sea, loop, column, x, k, trial, memory, world, noise, log, water, readings, commands, before, tick
     )
     return outcome
+
+
+@compiled
+def driven_step(
+    equipment: Equipment,
+    sea: Sea,
+    loop: Loop,
+    column: Column,
+    x: np.ndarray,
+    memory: np.record,
+    world: np.record,
+    noise: np.random.Generator,
+    log: Log,
+    readings: Readings,
+    drives: Drives,
+    wear: Wear,
+    before: float,
+    tick: int,
+) -> tuple[int, Readings, Vector]:
+    """Move from one look at the sensors to the next, by the vehicle's own electronics, well or worn.
+
+    The second half of control step `tick` and the first half of the one after: RUNNING or how the mission ended, what
+    the sensors say then, and the field at the compass. `memory` is only written down: the software that drives keeps
+    its own.
+    """
+    k, trial = np.empty((4, STATE_SIZE)), np.empty(STATE_SIZE)
+    t = tick * loop.control_step
+    water = _water_here(loop, column, x, t)
+    _note(log, memory, world, before, t, x[DEPTH])
+    theta = attitude_of(state_from_array(x).Q).theta
+    V_b = oil_volume(x, world)
+    done = drive(equipment.plant, world, wear, drives, x[R_PX], V_b, water.P, theta, loop.control_step)
+    if world.dropping and world.dropped == 0.0:
+        world.dropped = equipment.plant.drop_weight / water.rho
+        x[V_B] += world.dropped
+    outcome: int = _go_on(
+        equipment, sea, loop, column, x, k, trial, memory, world, noise, log, water, readings, drives, done, tick
+    )
+    if outcome == RUNNING:
+        outcome, readings, _ = _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick + 1)
+    return outcome, readings, felt_field(equipment.sensors, world, state_from_array(x).Q)
 
 
 @compiled

@@ -3,12 +3,12 @@
 from stommel.compilation import inlined
 from stommel.dynamics.equations import state_from_array
 from stommel.dynamics.inertia import velocities
-from stommel.dynamics.state import DEPTH, R_PX, V_B, Actuation
+from stommel.dynamics.state import DEPTH, R_PX, Actuation
 from stommel.geometry.attitude import attitude_of
 from stommel.ocean.kernel.column import water_at
 from stommel.ocean.kernel.grid import BOTTOM, SALINITY, Column
 from stommel.simulation.log import EVENT_ROWS, ROWS, SAMPLES, SURFACINGS
-from stommel.simulation.plant.sensing import measured_internal_pressure
+from stommel.simulation.plant.sensing import measured_internal_pressure, oil_volume
 
 
 @inlined
@@ -49,7 +49,7 @@ def write_row(log, t, age, x, equipment, done, step, memory, world, readings, co
     row.roll, row.pitch, row.heading = true.phi, true.theta, true.psi
     row.u, row.v, row.w = eta.v_r
     row.p, row.q, row.r = eta.omega
-    row.moving_mass, row.ballast = x[R_PX], x[V_B] + world.leaked
+    row.moving_mass, row.ballast = x[R_PX], oil_volume(x, world)
     row.rudder = 0.0 if by_mass else world.steering
     row.roll_mass = world.steering if by_mass else 0.0
     row.phase = memory.phase

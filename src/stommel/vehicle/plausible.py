@@ -215,6 +215,13 @@ def _outside_things(vehicle: VehicleFile) -> Findings:
             yield "antenna.position_m", "antenna.position_m: does not stand out of the hull"
         if abs(x) < 0.1 * longest_m(vehicle):
             yield "antenna.position_m", f"antenna.position_m: {x:g} m is so near the middle that no pitch raises it"
+    weight, engine_l = vehicle.drop_weight, 0.0 if engine is None else (engine.volume_m3[1] - engine.volume_m3[0]) * 1e3
+    if weight is not None and not 0.5 * engine_l <= weight.mass_in_water_kg <= 0.2 * vehicle.mass_kg:
+        yield (
+            "drop_weight.mass_in_water_kg",
+            f"drop_weight.mass_in_water_kg = {weight.mass_in_water_kg:g}: between half of what the engine moves "
+            f"({0.5 * engine_l:.3g} kg) and a fifth of the vehicle ({0.2 * vehicle.mass_kg:.3g} kg) is usual",
+        )
     flooded = [bay for bay in vehicle.bays if bay.flooded]
     if engine is not None and engine.bladder_position_m is not None and flooded:
         at = engine.bladder_position_m[0]

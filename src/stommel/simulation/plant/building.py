@@ -56,6 +56,7 @@ def plant_of(vehicle: Vehicle, temperature_c: float | None = None) -> Plant:
         battery=_battery(vehicle, model),
         antenna=d.antenna.position_m if d.antenna is not None else (nan, nan, nan),
         form=hull_form(d),
+        drop_weight=0.0 if d.drop_weight is None else d.drop_weight.mass_in_water_kg,
     )
 
 

@@ -118,3 +118,5 @@ class Plant(NamedTuple):
     """Tip of the antenna in the body frame [m]; not numbers where the vehicle file does not say."""
     form: HullForm
     """What of the hull stands out of the water."""
+    drop_weight: float
+    """Weight in water, as mass, that can be let go [kg]; zero for none."""

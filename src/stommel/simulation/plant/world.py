@@ -18,7 +18,7 @@ WORLD = np.dtype(
         ("voltage", "f8"), ("current", "f8"),
         ("calling", "i8"), ("called_at", "f8"),
         # inside the hull
-        ("leaked", "f8"), ("air_temperature", "f8"), ("internal_pressure", "f8"),
+        ("leaked", "f8"), ("dropping", "i8"), ("dropped", "f8"), ("air_temperature", "f8"), ("internal_pressure", "f8"),
         # sensors
         ("thermistor", "f8"), ("cell_error", "f8"), ("water_before", "f8"),
         ("measured", "f8", (LONGEST_LATENCY, 5)),

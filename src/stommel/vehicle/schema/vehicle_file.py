@@ -11,6 +11,7 @@ from stommel.vehicle.schema.actuators import Actuators
 from stommel.vehicle.schema.antenna import Antenna
 from stommel.vehicle.schema.budget import Part
 from stommel.vehicle.schema.drives import Drives
+from stommel.vehicle.schema.drop_weight import DropWeight
 from stommel.vehicle.schema.energy import Battery, Consumer, EnergyPlan
 from stommel.vehicle.schema.engine import Engine
 from stommel.vehicle.schema.hull import Bay, Hull
@@ -47,6 +48,7 @@ class VehicleFile(Table):
     hull: Hull | None = None
     bays: tuple[Bay, ...] = ()
     antenna: Antenna | None = None
+    drop_weight: DropWeight | None = None
     battery: Battery | None = None
     energy: EnergyPlan | None = None
     consumers: tuple[Consumer, ...] = ()

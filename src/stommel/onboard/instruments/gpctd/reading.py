@@ -32,7 +32,7 @@ LIMITS: dict[str, tuple[float, float]] = {
 """Values that the instrument can measure: -5 to 42 degC and 0 to 9 S/m with a little more for noise, 2000 m."""
 
 ERROR_VALUES = frozenset({99.0, 99.99, 99.999, 999.0, 999.9, 999.99, 9999.0, 9999.9, 9999.99, 99999.0})
-"""Numbers that instruments write for "no value", of either sign; one within the limits is a measurement."""
+"""Numbers that instruments write for "no value", of either sign; within the limits they are measurements."""
 
 
 def checked(values: dict[str, float]) -> tuple[dict[str, float], tuple[str, ...]]:

@@ -1,0 +1,259 @@
+"""The coordinator: frames and bytes in, frames and bytes out, once a second. No port, no clock, no thread."""
+
+from collections.abc import Iterable, Mapping
+
+from stommel.control.commands import Commands
+from stommel.control.orders import Orders
+from stommel.messages.codec import Encoder
+from stommel.messages.database import COORDINATOR, value_named
+from stommel.messages.frames import Frame
+from stommel.messages.nodes import HeartbeatSender, NodeState
+from stommel.onboard.coordination.assessment import Inside, situation_of
+from stommel.onboard.coordination.compass.calibration import running_bits
+from stommel.onboard.coordination.compass.compensation import CompassCompensation
+from stommel.onboard.coordination.deciding import Decide, Pilot
+from stommel.onboard.coordination.executive import Executive, ExecutiveState, State
+from stommel.onboard.coordination.executive_commands import commands as commands_of
+from stommel.onboard.coordination.logbook.logbook import Logbook
+from stommel.onboard.coordination.navigation import NavigationEstimate, Navigator
+from stommel.onboard.coordination.nodes_control import NodesControl
+from stommel.onboard.coordination.perception import Perception
+from stommel.onboard.coordination.power import Sleeper, wakes
+from stommel.onboard.coordination.recording import Recorder
+from stommel.onboard.coordination.safety import SafetyMonitor, standing_alarms
+from stommel.onboard.coordination.settings import CoordinatorSettings
+from stommel.onboard.coordination.situation import NO_REQUESTS, OperatorRequests
+from stommel.onboard.coordination.stores.continuity import Continuity, ContinuityStore
+from stommel.onboard.coordination.view import View
+from stommel.onboard.instruments.gnss.driver import GnssDriver, GnssState
+from stommel.onboard.instruments.gnss.fix import Fix
+from stommel.onboard.instruments.radio import Radio
+from stommel.onboard.instruments.tcm.driver import CompassDriver
+
+COMPASS, GNSS, RADIO = "compass", "gnss", "radio"
+PORTS = (COMPASS, GNSS, RADIO)
+"""Serial ports of the coordinator."""
+
+GPS_PATIENCE = 10.0
+"""Time after switching on in which a receiver need not say anything [s]."""
+CTD_PATIENCE = 10.0
+"""Time beyond two intervals without a sample, after which the payload is silent [s]."""
+
+
+class Coordinator:
+    """The vehicle's coordination software.
+
+    Parameters
+    ----------
+    settings
+        Numbers of the vehicle.
+    t
+        Time at which it is switched on [s].
+    logbook
+        Where records go; None keeps none.
+    store
+        What outlived a restart, and where to keep what must outlive the next; None: it has never started before.
+    decision
+        In place of plain Python's `stommel.control.decision.decide`.
+    """
+
+    def __init__(
+        self,
+        settings: CoordinatorSettings,
+        t: float,
+        *,
+        logbook: Logbook | None = None,
+        store: ContinuityStore | None = None,
+        decision: Decide | None = None,
+    ) -> None:
+        before = Continuity() if store is None else store.kept
+        self.settings = settings
+        self.perception = Perception(t)
+        self.pilot = Pilot(decision)
+        self.safety = SafetyMonitor(settings.safety, settings.has_drop_weight, before.standing)
+        self.executive = Executive(started=before.started)
+        self.compass, self.gnss, self.radio = CompassDriver(settings.compass), GnssDriver(settings.gnss), Radio()
+        self.recorder = Recorder(logbook, settings.report_every)
+        self.view: View | None = None
+        self.expires = float("inf")
+        """Time at which the mission's time is over [s]."""
+        self._compensation = CompassCompensation(settings.calibration, settings.masking, settings.declination)
+        self._encoder = Encoder()
+        self._heartbeat = HeartbeatSender(COORDINATOR, self._encoder, before.starts, settings.kind)
+        self._nodes = NodesControl.of(self._encoder, before.starts)
+        self._navigator: Navigator | None = None
+        self._sleeper = Sleeper(settings.schedule)
+        self._store, self._before, self._mission = store, before, before.mission
+        self._requests = NO_REQUESTS
+        self._fix_sigma: float | None = None
+        self._was_surfaced = True
+        self._radio_since = self._sampling_since = float("inf")
+
+    def request(self, requests: OperatorRequests) -> None:
+        """Ask for something, at the next decision."""
+        self._requests = requests
+
+    def adopt(self, orders: Orders, expires: float = float("inf"), mission: int = 0) -> None:
+        """Take the orders of a mission that has been validated, and fly them until a time [s].
+
+        The mission that was flown before a restart, by its number, is taken up where it was.
+        """
+        before = self._before
+        taken_up = mission == before.mission and before.starts > 0
+        self.pilot.adopt(orders, *((before.waypoint, before.energy_used) if taken_up else ()))
+        self.expires, self._mission = expires, mission
+
+    def step(
+        self, t: float, frames: Iterable[Frame], bytes_in: Mapping[str, bytes]
+    ) -> tuple[list[Frame], dict[str, bytes]]:
+        """Take what has come since the last call, and say what shall be until the next."""
+        seen = self.perception
+        for received in seen.take(frames, t):
+            self._nodes.take(received, t)
+            self.recorder.received(received, t)
+            self._sleeper.hear(wakes(received))
+        self._hear(t, bytes_in)
+        aborts = self.view is not None and self.view.executive.state is State.ABORT
+        if self.view is not None and not self._sleeper.due(t, self.pilot.phase, aborts) and not self._is_asked:
+            return self._keep_alive(t), self._ask(t, self.view.commands)
+        view = self._decide(t)
+        self._note_switches(view.commands, t)
+        self._keep(view)
+        return self._say(t, view.executive, view.commands), self._ask(t, view.commands)
+
+    @property
+    def _is_asked(self) -> bool:
+        return self._requests is not NO_REQUESTS
+
+    def _decide(self, t: float) -> View:
+        """Look at the situation, decide, and write it down."""
+        seen, pilot = self.perception, self.pilot
+        readings = seen.readings()
+        situation = situation_of(seen, self._inside(t), readings, t)
+        requests, self._requests = self._requests, NO_REQUESTS
+        if requests.check:
+            self.safety.checks.again()
+        if requests.clear:
+            self._nodes.clear_faults(t)
+        safety = self.safety.update(situation, clear=requests.clear)
+        state = self.executive.update(situation, safety, requests)
+        control = pilot.step(readings, state, t, self._sleeper.elapsed)
+        commands = commands_of(state, control, self.settings.actuators)
+        self.view = view = View(t, situation, safety, state, commands, self._navigate(t))
+        self.recorder.decided(view, pilot, readings, self._nodes.outcomes(), seen)
+        return view
+
+    def _navigate(self, t: float) -> NavigationEstimate | None:
+        """Follow how far the position may be wrong."""
+        memory = self.pilot.memory
+        if memory is None:
+            return None
+        if self._navigator is None:
+            self._navigator = Navigator(self.settings.navigation)
+        sigma, self._fix_sigma = self._fix_sigma, None
+        return self._navigator.update(memory, t, sigma)
+
+    def _keep(self, view: View) -> None:
+        """Keep what must outlive a restart: at once what an operator or safety did, the way once a surfacing."""
+        if self._store is None:
+            return
+        last, memory, executive = self._store.kept, self.pilot.memory, view.executive
+        standing = standing_alarms(view.safety) if view.safety.active else ()
+        waypoint, used = last.waypoint, last.energy_used
+        if memory is not None and (self._mission != last.mission or executive.surfaced != self._was_surfaced):
+            waypoint, used = int(memory["waypoint"]), max(0.0, float(memory["energy_used"]))
+        self._was_surfaced = executive.surfaced
+        kept = Continuity(self._before.starts + 1, executive.started, standing, self._mission, waypoint, used)
+        self._store.keep(kept)
+
+    def _hear(self, t: float, bytes_in: Mapping[str, bytes]) -> None:
+        """Let the drivers make readings of the ports' bytes."""
+        seen = self.perception
+        drives = seen.latest.get("MotionDrives", {})
+        for got in self.compass.take(bytes_in.get(COMPASS, b""), t):
+            running = running_bits(
+                bool(drives.get("pump_running")), bool(drives.get("valve_open")), bool(drives.get("mass_moving")),
+                bool(drives.get("steering_moving")),
+            )  # fmt: skip
+            estimate = self._compensation.update(got.t, got.acceleration, got.magnetic_field, running)
+            attitude = seen.attitude
+            attitude.at, attitude.theta, attitude.psi = t, estimate.pitch, estimate.heading
+            attitude.down_b2, attitude.down_b3 = estimate.down_b2, estimate.down_b3
+            attitude.gravity, attitude.field = _length(got.acceleration), _length(got.magnetic_field)
+        if bytes_in.get(GNSS):
+            depth = seen.value("Depth", "depth", float("nan"))
+            for outcome in self.gnss.take(bytes_in[GNSS], t, depth):
+                if isinstance(outcome, Fix):
+                    self._fix_sigma = outcome.sigma
+                    seen.take_fix(outcome.t - outcome.age, outcome.latitude, outcome.longitude)
+        self.radio.take(bytes_in.get(RADIO, b""), t)
+
+    def _inside(self, t: float) -> Inside:
+        pilot, seen = self.pilot, self.perception
+        gps_on = t - self._radio_since
+        speaks = (GnssState.SEARCHING, GnssState.FIXED, GnssState.REFUSED)
+        gps_silent = gps_on > GPS_PATIENCE and self.gnss.health(t).state not in speaks
+        heard = seen.heard.get("CtdSample", float("-inf"))
+        ctd_silent = t - max(heard, self._sampling_since) > 2.0 * self.settings.sample_interval + CTD_PATIENCE
+        return Inside(
+            phase=pilot.phase,
+            event=pilot.event,
+            alarm=pilot.alarm,
+            submerged_since=pilot.submerged_since,
+            coming_up=self.view is not None and self.view.executive.coming_up,
+            gps_silent=gps_silent,
+            ctd_silent=ctd_silent,
+            mission_present=pilot.orders is not None,
+            mission_expired=t >= self.expires,
+            exceptions=pilot.exceptions,
+            log_writable=self.recorder.writable,
+            drives_proven=self._nodes.drives_proven,
+            has_altimeter=self.settings.has_altimeter,
+        )
+
+    def _note_switches(self, commands: Commands, t: float) -> None:
+        """Remember since when receiver and payload are on."""
+        self._radio_since = min(self._radio_since, t) if commands.radio else float("inf")
+        self._sampling_since = min(self._sampling_since, t) if commands.sampling else float("inf")
+
+    def _keep_alive(self, t: float) -> list[Frame]:
+        """Frames of a controller that sleeps on: the nodes hold what they were told."""
+        return [self._encoder.frame("Sync", vehicle_time=t), *self._heartbeat.poll(t, NodeState.Operational)]
+
+    def _say(self, t: float, state: ExecutiveState, commands: Commands) -> list[Frame]:
+        """Frames to the nodes, the most urgent first."""
+        frame = self._encoder.frame
+        frames = []
+        if state.state is State.ABORT:
+            reason = value_named("Abort", "reason", state.reason)
+            frames.append(frame("Abort", reason=reason, drop_weight=state.drop_weight))
+        frames.append(frame("Sync", vehicle_time=t))
+        frames.append(
+            frame("MotionSetpoint", ballast=commands.V_b, moving_mass=commands.r_px, steering=commands.steering)
+        )
+        frames.append(
+            frame(
+                "Switch",
+                loads=commands.loads,
+                sampling=commands.sampling,
+                surface_radio=commands.radio,
+                sample_interval=self.settings.sample_interval,
+            )
+        )
+        frames += self._nodes.step(self.perception.watch, state, t)
+        frames += self._heartbeat.poll(t, NodeState.Operational)
+        return frames
+
+    def _ask(self, t: float, commands: Commands) -> dict[str, bytes]:
+        """Bytes to the instruments; those without power are not asked."""
+        out = {COMPASS: self.compass.poll(t)}
+        if commands.radio and self.settings.schedule.gps[self.pilot.phase]:
+            out[GNSS] = self.gnss.poll(t)
+        if commands.radio:
+            out[RADIO] = self.radio.poll(t)
+        return out
+
+
+def _length(vector: tuple[float, float, float]) -> float:
+    x, y, z = vector
+    return float((x * x + y * y + z * z) ** 0.5)

@@ -1,0 +1,36 @@
+"""What a coordinator is set up with."""
+
+from dataclasses import dataclass, field
+
+from stommel.messages.nodes import NodeKind
+from stommel.onboard.coordination.compass.calibration import CompassCalibration
+from stommel.onboard.coordination.compass.compensation import Masking
+from stommel.onboard.coordination.limits import ActuatorLimits, SafetyLimits
+from stommel.onboard.coordination.navigation import NavigationErrors
+from stommel.onboard.coordination.power import PowerSchedule
+from stommel.onboard.instruments.gnss.driver import GnssSettings
+from stommel.onboard.instruments.tcm.driver import CompassSettings
+
+
+@dataclass(frozen=True)
+class CoordinatorSettings:
+    """Numbers of the vehicle and of its instruments; SI units and radians."""
+
+    safety: SafetyLimits
+    actuators: ActuatorLimits
+    has_drop_weight: bool = False
+    has_altimeter: bool = True
+    declination: float = 0.0
+    """From magnetic to true north, east positive."""
+    calibration: CompassCalibration = field(default_factory=CompassCalibration)
+    masking: Masking = field(default_factory=Masking)
+    sample_interval: float = 10.0
+    """Between two samples of the CTD."""
+    compass: CompassSettings = field(default_factory=lambda: CompassSettings(polled=False))
+    gnss: GnssSettings = field(default_factory=GnssSettings)
+    navigation: NavigationErrors = field(default_factory=NavigationErrors)
+    schedule: PowerSchedule = field(default_factory=PowerSchedule)
+    kind: NodeKind = field(default_factory=lambda: NodeKind(1, (0, 1, 0)))
+    """Of this computer."""
+    report_every: float = 60.0
+    """Between two records of hull, battery and bus in the log."""

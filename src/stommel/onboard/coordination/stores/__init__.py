@@ -1,0 +1,1 @@
+"""What the coordination computer keeps through a loss of power: missions, and the storage below them."""

@@ -1,0 +1,273 @@
+"""The missions of a vehicle: received whole, held against the vehicle, switched over as one, the one before kept.
+
+A mission is one file with its own hash, under a number that rises; it comes into being under its name by one rename.
+The highest number that is sound and fits the vehicle is the mission; there is nothing else that could contradict it.
+So after a loss of power at any point the vehicle holds the old mission or the new one, and a mission that the disk has
+damaged gives way to the one before it.
+"""
+
+import hashlib
+import json
+import re
+from contextlib import suppress
+from typing import NamedTuple
+
+from stommel.control.orders import Orders
+from stommel.control.orders_file import OrdersHeader, parse_orders
+from stommel.errors import FileError, Problem, StommelError
+from stommel.onboard.coordination.stores.reception import Reception, ReceptionError
+from stommel.onboard.coordination.stores.storage import Storage
+from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits, refusals
+
+_NAME = re.compile(r"mission-(\d{6,})\.orders")
+_PART = "mission.part"
+_STARTED = "started"
+
+
+class MissionStoreError(StommelError):
+    """The disk does not keep a mission, or there is none to go back to; the mission stays as it was."""
+
+
+class StoredMission(NamedTuple):
+    """A mission that the vehicle holds."""
+
+    number: int
+    """Higher than that of every mission before."""
+    sha256: str
+    """Of the text of its orders."""
+    orders: Orders
+    header: OrdersHeader
+
+
+class MissionStore:
+    """The mission that is flown, the one before it, and one that is being received."""
+
+    def __init__(self, storage: Storage, limits: VehicleLimits) -> None:
+        self._storage = storage
+        self._limits = limits
+        self._reception: Reception | None = None
+        self._highest = 0
+        self.notes: list[str] = []
+        """What was found damaged or unfit when the store was opened, in words."""
+        self.active: StoredMission | None = None
+        """The mission that the vehicle holds; None before it was given any."""
+        self.previous: StoredMission | None = None
+        """The one before, to roll back to."""
+        self.started: float | None = None
+        """When the active one was started [s], by the clock that told."""
+        self._open()
+
+    # what is there
+
+    def _open(self) -> None:
+        """Find the two newest missions that are sound."""
+        try:
+            names = self._storage.sizes()
+        except OSError as error:
+            self.notes.append(f"missions cannot be read: {error.strerror or error}")
+            return
+        numbers = sorted((int(found[1]) for name in names if (found := _NAME.fullmatch(name))), reverse=True)
+        self._highest = max(numbers, default=0)
+        sound: list[StoredMission] = []
+        for number in numbers:
+            try:
+                sound.append(self._read(number))
+            except (StommelError, OSError) as error:
+                reason = error.strerror or str(error) if isinstance(error, OSError) else str(error).splitlines()[0]
+                self.notes.append(f"mission {number} is not used: {reason}")
+            if len(sound) == 2:
+                break
+        self.active, self.previous = (*sound, None, None)[:2]
+        if self.active is not None and self.active.number != self._highest:
+            self.notes.append(f"mission {self.active.number}, {self.active.header.mission}, is flown in its place")
+        self.started = self._read_started()
+
+    def _read(self, number: int) -> StoredMission:
+        name = _name(number)
+        head, _, text = self._storage.read(name).partition(b"\n")
+        sha256 = hashlib.sha256(text).hexdigest()
+        if head != _head(sha256):
+            raise FileError([Problem(name, "", "is damaged: its SHA-256 is another")])
+        return self._checked(number, text, name)
+
+    def _checked(self, number: int, text: bytes, origin: str) -> StoredMission:
+        """The mission of a text, held against the vehicle."""
+        try:
+            plain = text.decode("utf-8")
+        except UnicodeDecodeError:
+            raise FileError([Problem(origin, "", "is not UTF-8 text")]) from None
+        orders, header = parse_orders(plain, origin)
+        problems = refusals(orders, header, self._limits, origin)
+        if problems:
+            raise FileError(problems)
+        return StoredMission(number, hashlib.sha256(text).hexdigest(), orders, header)
+
+    # a mission arrives
+
+    def announce(self, size: int, sha256: str) -> None:
+        """Begin to receive a mission of so many bytes; the same one again goes on where it was.
+
+        Raises
+        ------
+        ReceptionError
+            No mission can have this size or hash.
+        """
+        if self._reception is None or (self._reception.sha256, self._reception.size) != (sha256, size):
+            self._reception = Reception(size, sha256)
+
+    def take(self, offset: int, piece: bytes) -> None:
+        """Take a piece of the mission that was announced.
+
+        Raises
+        ------
+        ReceptionError
+            None was announced, or the piece lies outside of it.
+        """
+        self._expected().take(offset, piece)
+
+    @property
+    def missing(self) -> list[tuple[int, int]]:
+        """First byte and the one behind the last of every gap of the mission that is received."""
+        return [] if self._reception is None else self._reception.missing
+
+    def _expected(self) -> Reception:
+        if self._reception is None:
+            raise ReceptionError("mission: none was announced")
+        return self._reception
+
+    def check(self) -> StoredMission:
+        """The mission that was received, held against the vehicle; it is not flown yet.
+
+        Raises
+        ------
+        ReceptionError
+            It is not whole.
+        FileError
+            It is no mission, or the vehicle cannot fly it: a problem for each limit that it breaks.
+        """
+        return self._checked(self._highest + 1, self._expected().whole(), "mission")
+
+    def switch(self) -> StoredMission:
+        """Take the mission that was received in place of the one that is held, which becomes the previous one.
+
+        Raises
+        ------
+        ReceptionError, FileError
+            As `check`; nothing has changed.
+        MissionStoreError
+            The disk does not keep it; nothing has changed.
+        """
+        mission = self.check()
+        self._keep(mission, self._expected().whole())
+        self._reception = None
+        return mission
+
+    def roll_back(self) -> StoredMission:
+        """Take the previous mission again; the one that is held becomes the previous one.
+
+        Raises
+        ------
+        MissionStoreError
+            There is none, or the disk does not keep it; nothing has changed.
+        """
+        if self.previous is None:
+            raise MissionStoreError("mission: there is no previous one to roll back to")
+        try:
+            text = self._storage.read(_name(self.previous.number)).partition(b"\n")[2]
+        except OSError as error:
+            raise MissionStoreError(f"mission: cannot be read: {error.strerror or error}") from error
+        if hashlib.sha256(text).hexdigest() != self.previous.sha256:
+            raise MissionStoreError(f"mission {self.previous.number}: is damaged: its SHA-256 is another")
+        mission = self.previous._replace(number=self._highest + 1)
+        self._keep(mission, text)
+        return mission
+
+    def _keep(self, mission: StoredMission, text: bytes) -> None:
+        try:
+            self._write(_name(mission.number), _head(mission.sha256) + b"\n" + text)
+        except OSError as error:
+            raise MissionStoreError(f"mission: cannot be kept: {error.strerror or error}") from error
+        self._highest = mission.number
+        self.active, self.previous, self.started = mission, self.active, None
+        kept = {self.active.number, self.previous.number if self.previous else 0}
+        # what is left over is only untidy
+        with suppress(OSError):
+            for name in self._storage.sizes():
+                found = _NAME.fullmatch(name)
+                if found and int(found[1]) not in kept:
+                    self._storage.remove(name)
+
+    def _write(self, name: str, content: bytes) -> None:
+        """Bring a file into being under its name: whole, on the disk, or not at all."""
+        if _PART in self._storage.sizes():
+            self._storage.remove(_PART)
+        file = self._storage.create(_PART)
+        try:
+            file.write(content)
+            file.sync()
+        finally:
+            file.close()
+        self._storage.rename(_PART, name)
+
+    # its time
+
+    def start(self, now: float) -> None:
+        """Start the mission, once: its time counts from here, also after a restart of the software.
+
+        Raises
+        ------
+        MissionStoreError
+            There is no mission, or the disk does not keep it.
+        """
+        if self.active is None:
+            raise MissionStoreError("mission: there is none to start")
+        if self.started is not None:
+            return
+        told = json.dumps({"number": self.active.number, "started": now})
+        try:
+            self._write(_STARTED, f"{_digest(told.encode())} {told}".encode())
+        except OSError as error:
+            raise MissionStoreError(f"mission: its start cannot be kept: {error.strerror or error}") from error
+        self.started = now
+
+    def _read_started(self) -> float | None:
+        """When the active mission was started; None if it was not, or if nobody can tell any more."""
+        if self.active is None:
+            return None
+        try:
+            digest, _, told = self._storage.read(_STARTED).partition(b" ")
+        except FileNotFoundError:
+            return None
+        except OSError as error:
+            self.notes.append(f"the start of the mission cannot be read: {error.strerror or error}")
+            return None
+        if digest.decode("ascii", "replace") != _digest(told):
+            self.notes.append("the start of the mission is damaged: it counts as not started")
+            return None
+        found = json.loads(told)
+        return float(found["started"]) if found["number"] == self.active.number else None
+
+    @property
+    def expires(self) -> float | None:
+        """When the mission expires [s], by the clock of `start`; None: it is not started, or never does."""
+        if self.active is None or self.started is None or self.active.header.expires_hours is None:
+            return None
+        return self.started + self.active.header.expires_hours * 3600.0
+
+    def expired(self, now: float) -> bool:
+        """Whether the mission has expired."""
+        expires = self.expires
+        return expires is not None and now >= expires
+
+
+def _name(number: int) -> str:
+    return f"mission-{number:06d}.orders"
+
+
+def _head(sha256: str) -> bytes:
+    """First line of a stored mission."""
+    return f"stommel mission 1 sha256={sha256}".encode()
+
+
+def _digest(told: bytes) -> str:
+    return hashlib.sha256(told).hexdigest()

@@ -1,0 +1,102 @@
+"""Settings of a node: each with its limits, and those that can be set over the bus with their number."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from math import inf
+from typing import Any, NamedTuple, TypeVar, cast
+
+from stommel.errors import StommelError
+from stommel.messages.parameters import Parameter, ParameterServer, ParameterType
+
+
+class SettingsError(StommelError):
+    """A setting of a node is beyond its limits."""
+
+
+class _Limits(NamedTuple):
+    low: float
+    high: float
+    unit: str
+    number: int | None
+    factor: float
+
+
+def setting(
+    default: float, low: float, high: float, unit: str = "", number: int | None = None, factor: float = inf
+) -> Any:
+    """Return a field of a settings class: its limits, unit, and number as a parameter where it has one.
+
+    Over the bus a setting changes by no more than a factor from what the vehicle was given: a mistyped speed must not
+    keep it down.
+    """
+    return field(default=default, metadata={"limits": _Limits(low, high, unit, number, factor)})
+
+
+@dataclass(frozen=True)
+class NodeSettings:
+    """Settings that are checked as they are made.
+
+    Raises
+    ------
+    SettingsError
+        A value is beyond its limits.
+    """
+
+    def __post_init__(self) -> None:
+        for each, (low, high, unit, _, _) in _limits(self).items():
+            value = getattr(self, each)
+            if not low <= value <= high:  # not a number, too
+                raise SettingsError(f"{type(self).__name__}.{each} = {value}: must be {_span(low, high, unit)}")
+
+    def require_order(self, low: str, high: str) -> None:
+        """Hold one setting below another.
+
+        Raises
+        ------
+        SettingsError
+            It is not.
+        """
+        if not getattr(self, low) < getattr(self, high):
+            least = getattr(self, high)
+            raise SettingsError(
+                f"{type(self).__name__}.{low} = {getattr(self, low)}: must be less than {high}, {least}"
+            )
+
+
+Settings = TypeVar("Settings", bound=NodeSettings)
+
+
+def _span(low: float, high: float, unit: str) -> str:
+    return f"between {low:g} and {high:g} {unit}".rstrip()
+
+
+def _limits(settings: NodeSettings) -> Mapping[str, _Limits]:
+    return {each.name: each.metadata["limits"] for each in fields(settings) if "limits" in each.metadata}
+
+
+def _kind(value: float) -> ParameterType:
+    if isinstance(value, bool):
+        return ParameterType.bool
+    return ParameterType.int32 if isinstance(value, int) else ParameterType.float32
+
+
+def parameters_of(settings: NodeSettings) -> list[Parameter]:
+    """What can be set of a node over the bus; the settings given are the defaults."""
+    found = []
+    for name, (low, high, unit, number, factor) in _limits(settings).items():
+        if number is not None:
+            value = getattr(settings, name)
+            if factor < inf:
+                low, high = max(low, value / factor), min(high, value * factor)  # noqa: PLW2901 - the narrower ones
+            found.append(Parameter(number, name, _kind(value), value, low, high, unit))
+    return found
+
+
+def settings_with(settings: Settings, server: ParameterServer) -> Settings:
+    """Return settings with a parameter server's values."""
+    values = {}
+    for name, (low, high, _, number, _) in _limits(settings).items():
+        if number is not None:
+            # a limit that 32 bits hold a little too large is the limit
+            values[name] = min(max(server[name], low), high)
+    return replace(settings, **cast(dict[str, Any], values))

@@ -1,0 +1,36 @@
+"""The limits that a vehicle's software holds missions against, from the vehicle's file."""
+
+from stommel.errors import FileError, Problem
+from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits
+from stommel.vehicle import Vehicle
+from stommel.vehicle.fingerprint import untrimmed_fingerprint
+
+
+def vehicle_limits(vehicle: Vehicle) -> VehicleLimits:
+    """What the software's configuration says of a vehicle.
+
+    Raises
+    ------
+    FileError
+        The vehicle's file lacks what a mission needs: buoyancy engine, drive of the moving mass, a depth.
+    """
+    d = vehicle.description
+    engine, drive = d.actuators.buoyancy, d.actuators.moving_mass
+    depth = d.hull.depth_rating_m if d.hull is not None else None
+    if depth is None and d.specification is not None:
+        depth = d.specification.depth_m
+    needed = {"actuators.buoyancy": engine, "actuators.moving_mass": drive, "hull.depth_rating_m": depth}
+    missing = [key for key, found in needed.items() if found is None]
+    if missing or engine is None or drive is None or depth is None:
+        texts = (f"{key} is missing: the limits of missions need it" for key in missing)
+        raise FileError([Problem(vehicle.origin, key, text) for key, text in zip(missing, texts, strict=True)])
+    steering = {"rudder": d.actuators.rudder, "roll": d.actuators.roll}.get(d.steers_by or "")
+    battery = d.battery
+    return VehicleLimits(
+        vehicle_sha256=untrimmed_fingerprint(vehicle),
+        ballast_ml=engine.range_ml,
+        moving_mass_mm=drive.travel_mm,
+        steering_deg=steering.travel_deg if steering is not None else 0.0,
+        depth_rating_m=depth,
+        battery_wh=battery.capacity_ah * battery.voltage_v if battery is not None else None,
+    )

@@ -110,6 +110,7 @@ def test_stored_error_values_are_no_reading(line: bytes, name: str) -> None:
     ("line", "name", "word"),
     [
         (b"9999,12.0000,3.00000", "pressure", "error value"),
+        (b"999,12.0000,3.00000", "pressure", "error value"),
         (b"9999.000,12.0000,3.00000", "pressure", "error value"),
         (b"-999,12.0000,3.00000", "pressure", "error value"),
         (b"10.000,9999.0000,3.00000", "temperature", "error value"),

@@ -12,14 +12,14 @@ import tracemalloc
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from stommel.onboard.instruments.gnss.device import GnssDevice, GnssTruth
-from stommel.onboard.instruments.gnss.driver import GnssDriver, GnssSettings
-from stommel.onboard.instruments.gnss.fix import Fix, FixLimits
-from stommel.onboard.instruments.gpctd.device import CtdTruth
-from stommel.onboard.instruments.gpctd.driver import CtdDriver
-from stommel.onboard.instruments.gpctd.live import VARIANTS, live_line
-from stommel.onboard.instruments.tcm.device import CompassDevice, CompassTruth
-from stommel.onboard.instruments.tcm.driver import CompassDriver
+from stommel.instruments.gnss.device import GnssDevice, GnssTruth
+from stommel.instruments.gnss.driver import GnssDriver, GnssSettings
+from stommel.instruments.gnss.fix import Fix, FixLimits
+from stommel.instruments.gpctd.device import CtdTruth
+from stommel.instruments.gpctd.driver import CtdDriver
+from stommel.instruments.gpctd.live import VARIANTS, live_line
+from stommel.instruments.tcm.device import CompassDevice, CompassTruth
+from stommel.instruments.tcm.driver import CompassDriver
 
 Value = float
 """What tells a frame: its heading, latitude or pressure."""

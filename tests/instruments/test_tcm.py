@@ -8,12 +8,12 @@ from itertools import pairwise
 import pytest
 
 from stommel.errors import StommelError
-from stommel.onboard.instruments.tcm.calibration import MANUALS
-from stommel.onboard.instruments.tcm.components import Component, Config, config_payload
-from stommel.onboard.instruments.tcm.device import CompassDevice, CompassTruth
-from stommel.onboard.instruments.tcm.driver import CompassDriver, CompassSettings, CompassState
-from stommel.onboard.instruments.tcm.frames import LONGEST, PAYLOADS, Id, encoded, look
-from stommel.onboard.instruments.tcm.reading import DISTORTED, UNCALIBRATED, CompassReading
+from stommel.instruments.tcm.calibration import MANUALS
+from stommel.instruments.tcm.components import Component, Config, config_payload
+from stommel.instruments.tcm.device import CompassDevice, CompassTruth
+from stommel.instruments.tcm.driver import CompassDriver, CompassSettings, CompassState
+from stommel.instruments.tcm.frames import LONGEST, PAYLOADS, Id, encoded, look
+from stommel.instruments.tcm.reading import DISTORTED, UNCALIBRATED, CompassReading
 from tests.support.garbled_streams import crc_bit_by_bit
 
 TRUTH = CompassTruth(math.radians(123.4), math.radians(-26.0), math.radians(3.0), (0.1, -0.2, 0.97), (20.0, -5.0, 41.0))

@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass
 from functools import cached_property
 
-from stommel.onboard.instruments.gpctd.reading import CtdReading, checked
+from stommel.instruments.gpctd.reading import CtdReading, checked
 
 
 @dataclass(frozen=True)

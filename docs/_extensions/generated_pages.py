@@ -19,9 +19,9 @@ from typing import Any, Literal, get_args, get_origin
 
 import can_tables
 import dive_cycle
+import log_tables
 import node_tables
 import vehicle_software
-import log_tables
 from docutils import nodes
 from pydantic import BaseModel, BeforeValidator
 from sphinx.application import Sphinx
@@ -36,6 +36,8 @@ from stommel.files.table_keys import models_in
 from stommel.files.units import unit_of
 from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
 from stommel.onboard.execution.motion_settings import MotionSettings
+from stommel.onboard.coordination.compass.calibration_file import CalibrationFile
+from stommel.onboard.coordination.config.tables import ConfigurationFile
 from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle.schema import VehicleFile
 
@@ -201,6 +203,14 @@ def write_pages(app: Sphinx) -> None:
     meanings = tomllib.loads((Path(app.srcdir) / "guide" / "meanings.toml").read_text(encoding="utf-8"))
     _write(folder / "vehicle-file.md", "".join(file_tables(VehicleFile, meanings["meaning"], "vehicle file")))
     _write(folder / "mission-file.md", "".join(file_tables(ScenarioFile, meanings["mission"], "mission file")))
+    _write(
+        folder / "vehicle-configuration.md",
+        "".join(file_tables(ConfigurationFile, meanings["configuration"], "vehicle configuration")),
+    )
+    _write(
+        folder / "compass-calibration.md",
+        "".join(file_tables(CalibrationFile, meanings["calibration"], "compass calibration")),
+    )
     _write(folder / "validation.md", validation_report())
     _write(folder / "can-messages.md", "".join(can_tables.can_tables()))
     _write(folder / "log-records.md", "".join(log_tables.log_tables()))

@@ -91,7 +91,7 @@ def _begun(vehicle: "Vehicle", setup: "Setup") -> "ConfigurationFile":
     from stommel.files.sentences import validated
     from stommel.onboard.coordination.config.tables import ConfigurationFile
     from stommel.sitl.equipment import actuator_limits, safety_limits
-    from stommel.vehicle.fingerprint import fingerprint
+    from stommel.vehicle.fingerprint import untrimmed_fingerprint
 
     actuators, safety = actuator_limits(setup), safety_limits(setup)
     battery = vehicle.description.battery
@@ -102,7 +102,7 @@ def _begun(vehicle: "Vehicle", setup: "Setup") -> "ConfigurationFile":
         "vehicle": vehicle.name,
         "vehicle_id": 1,
         "limits": {
-            "vehicle_sha256": fingerprint(vehicle),
+            "vehicle_sha256": untrimmed_fingerprint(vehicle),
             "ballast_ml": [_rounded(1e6 * actuators.V_b_least), _rounded(1e6 * actuators.V_b_greatest)],
             "moving_mass_mm": [_rounded(1e3 * actuators.r_px_aft), _rounded(1e3 * actuators.r_px_fore)],
             "steering_deg": _degrees(actuators.steering),

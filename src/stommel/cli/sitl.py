@@ -14,6 +14,8 @@ from stommel.cli.flown import interruptible as writing
 from stommel.cli.options import JsonOption
 from stommel.cli.output import show_values
 from stommel.cli.paths import PlotsOption, folder_parser, refuse_same
+from stommel.cli.sitl_campaign import campaign, replay
+from stommel.cli.sitl_stand_in import stand_in
 from stommel.cli.status import INTERRUPTED
 from stommel.files.units import counted
 
@@ -48,6 +50,9 @@ sitl_app = typer.Typer(
     rich_markup_mode="markdown",
     help="The vehicle's own software in the loop; `stommel sitl SCENARIO` is short for `stommel sitl fly SCENARIO`.",
 )
+sitl_app.command("stand-in")(stand_in)
+sitl_app.command("campaign")(campaign)
+sitl_app.command("replay")(replay)
 
 
 def _speed(text: str) -> float | None:

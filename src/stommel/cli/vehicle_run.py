@@ -2,6 +2,8 @@
 
 import hashlib
 import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -53,20 +55,22 @@ def run(
             software.take_mission(software.clock.monotonic())
         if start:
             software.start()
-        figures = _run(software.run, LONGEST if seconds is None else seconds)
+        with until_asked() as asked:
+            figures = software.run(LONGEST if seconds is None else seconds, asked)
     finally:
         ports.close()
     finish(_answer(figures), None, as_json, _show)
 
 
-def _run(run: Any, seconds: float) -> "Figures":
-    """Run until the time is over, Ctrl-C or SIGTERM."""
+@contextmanager
+def until_asked() -> Iterator[Callable[[], bool]]:
+    """Tell whether Ctrl-C or SIGTERM has come, which end nothing by themselves meanwhile."""
     import signal
 
     asked: list[int] = []
     before = {number: signal.signal(number, lambda n, _: asked.append(n)) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
-        return run(seconds, lambda: bool(asked))  # type: ignore[no-any-return]
+        yield lambda: bool(asked)
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)

@@ -28,6 +28,8 @@ class SimulatedBus:
     nodes: tuple[int, ...]
     """Numbers of those that listen."""
     spoil: Spoil | None = None
+    deaf: set[int] = field(default_factory=set)
+    """Numbers of those that hear nothing."""
     bits: int = 0
     """Sent so far."""
     frames: int = 0
@@ -40,11 +42,15 @@ class SimulatedBus:
         """Put the frames of a node on the bus."""
         for sent in sorted(frames, key=_identifier):
             for frame in (sent,) if self.spoil is None else self.spoil(sender, sent):
-                self.bits += bits_of(frame)
-                self.frames += 1
-                for node, waiting in self._waiting.items():
-                    if node != sender:
-                        waiting.append(frame)
+                self.deliver(sender, frame)
+
+    def deliver(self, sender: int, frame: Frame) -> None:
+        """Let everyone else hear a frame, whatever becomes of others on their way."""
+        self.bits += bits_of(frame)
+        self.frames += 1
+        for node, waiting in self._waiting.items():
+            if node != sender and node not in self.deaf:
+                waiting.append(frame)
 
     def receive(self, node: int) -> list[Frame]:
         """Take what a node has heard since it asked last."""

@@ -4,8 +4,8 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from stommel.onboard.coordination.coordinator import View
 from stommel.onboard.coordination.executive import State
+from stommel.onboard.coordination.view import View
 from stommel.sitl.system import System
 
 EVENTS = 8

@@ -1,20 +1,21 @@
 """The plant below the vehicle's electronics: what its sensors feel, and what its power stages move."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from stommel.compilation import compiled
 from stommel.control.readings import Readings
-from stommel.dynamics.equations import state_from_array
-from stommel.dynamics.state import DEPTH, R_PX
+from stommel.dynamics.equations import net_weight, state_from_array
+from stommel.dynamics.state import DEPTH, R_PX, V_B
 from stommel.geometry.vectors import Vector
 from stommel.ocean.kernel.column import water_at
 from stommel.ocean.kernel.grid import TIME, Column
 from stommel.simulation.flight import Flown, flown_of
 from stommel.simulation.mission_loop import OUTCOMES, RUNNING, begin_step, driven_step
 from stommel.simulation.plant.driven import AS_NEW, Drives, Wear
+from stommel.simulation.plant.hull_air import Hull
 from stommel.simulation.plant.parameters import PITCH_DRIVE, PUMP, STEERING
 from stommel.simulation.plant.sensing import felt_field
 from stommel.simulation.scenario.mission import Mission
@@ -23,6 +24,14 @@ from stommel.simulation.writing import salinity_at
 
 FLAT = 1e-6
 """Voltage below which a battery gives nothing [V]."""
+
+
+@compiled
+def spare_buoyancy(vehicle: np.record, column: Column, depth: float, age: float, V_b: float) -> float:
+    """Volume by which the vehicle is too light at a depth [m3], negative if it sinks; `age` as for `felt_water`."""
+    water = water_at(column, depth, age)
+    spare: float = -net_weight(vehicle, water, V_b) / (water.rho * vehicle.g)
+    return spare
 
 
 class WaterFelt(NamedTuple):
@@ -150,6 +159,22 @@ class Plant:
         mass, r_px, broken = self.setup.equipment.plant.mass, self.setup.x[R_PX], self.wear.switches == 0.0
         fore, aft = bool(r_px >= mass.high - 1e-9), bool(r_px <= mass.low + 1e-9)
         return Felt(Readings(*readings), field, currents, fore and not broken, aft and not broken)
+
+    def spare(self, depth: float) -> float:
+        """Volume by which the vehicle as it is now would be too light at a depth [m3]; negative if it would sink."""
+        s = self.setup
+        age = s.loop.start + self.time - float(s.column.place[TIME])
+        return float(spare_buoyancy(s.equipment.vehicle, s.column, depth, age, float(s.x[V_B])))
+
+    @property
+    def oil(self) -> float:
+        """Oil outside, as ballast volume [m3]."""
+        return float(self.setup.x[V_B] + self.setup.world.leaked - self.setup.world.dropped)
+
+    def replace_hull(self, hull: Hull) -> None:
+        """Let the hull be another one from now on."""
+        if hull is not self.setup.equipment.hull:
+            self.setup = replace(self.setup, equipment=self.setup.equipment._replace(hull=hull))
 
     def flown(self) -> Flown:
         """Return what has been flown so far, as `stommel.fly_mission` does."""

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 from stommel.control.memory import MEMORY
 from stommel.geometry.attitude import wrapped
-from stommel.onboard.coordination.coordinator import View
 from stommel.onboard.coordination.failsafes import Reaction
+from stommel.onboard.coordination.view import View
 from stommel.sitl.observer import Observer
 from stommel.sitl.system import System
 

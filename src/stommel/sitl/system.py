@@ -6,25 +6,32 @@ motion-control node obeys; all through frames of the bus and bytes of the instru
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import degrees
+from math import degrees, inf
 
 import numpy as np
 
+from stommel import __version__
 from stommel.control.commands import GOING_ON
 from stommel.control.decision import decide
-from stommel.messages.database import ACQUISITION, COORDINATOR, MOTION
+from stommel.messages.database import ACQUISITION, COORDINATOR, MOTION, database_hash
+from stommel.messages.frames import Frame
 from stommel.onboard.coordination.coordinator import COMPASS, GNSS, RADIO, Coordinator
+from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook
 from stommel.onboard.coordination.situation import OperatorRequests
+from stommel.onboard.coordination.stores.continuity import ContinuityStore
 from stommel.onboard.execution.acquisition_io import AcquisitionOutputs, AcquisitionReadings
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
-from stommel.onboard.execution.motion_io import DriveOutputs, MotionReadings
+from stommel.onboard.execution.motion_io import AT_REST, DriveOutputs, MotionReadings
 from stommel.onboard.execution.motion_node import MotionNode
+from stommel.onboard.execution.node_states import Mode
 from stommel.simulation.plant.driven import Drives
 from stommel.simulation.scenario.mission import Mission
 from stommel.sitl.can_bus import SimulatedBus
 from stommel.sitl.ctd_port import CtdPort
 from stommel.sitl.equipment import acquisition_settings, coordinator_settings, known_disturbances, motion_settings
+from stommel.sitl.faults.disk import MemoryDisk
+from stommel.sitl.faults.injector import Injector
 from stommel.sitl.instruments import CompassPort, GnssPort, compass_truth
 from stommel.sitl.nodes import Acquisition, Bus, Motion
 from stommel.sitl.payload import NOTHING, Payload
@@ -54,6 +61,10 @@ class System:
         From `stommel.load_mission`.
     logbook
         Where the coordinator's records go; None keeps none.
+    inject
+        Faults; none if left out. If it has a disk, logbooks are kept there, a new one at each start of the coordinator.
+    expires
+        Time of the mission at which its time is over for the software [s].
 
     Raises
     ------
@@ -61,8 +72,15 @@ class System:
         The vehicle cannot fly the dives that the plan asks for.
     """
 
-    def __init__(self, mission: Mission, logbook: Logbook | None = None) -> None:
+    def __init__(
+        self,
+        mission: Mission,
+        logbook: Logbook | None = None,
+        inject: Injector | None = None,
+        expires: float = inf,
+    ) -> None:
         self.mission = mission
+        self.inject = Injector() if inject is None else inject
         self.plant = Plant.of(mission)
         setup = self.plant.setup
         machinery, orders = setup.equipment.plant, setup.orders
@@ -70,58 +88,120 @@ class System:
         self.bus: Bus = SimulatedBus(NODES)
         self.motion: Motion = MotionNode(motion_settings(machinery, orders))
         self.acquisition: Acquisition = AcquisitionNode(acquisition_settings(machinery), ctd=self.ports.ctd)
-        scenario = mission.scenario
-        settings = coordinator_settings(setup, scenario.sampling.every_s, known_disturbances(setup.equipment.sensors))
-        self.coordinator = Coordinator(settings, 0.0, logbook=logbook, decision=decide)
-        self.coordinator.adopt(orders)
-        self.coordinator.request(OperatorRequests(start=True))
-        self.payload = Payload(scenario)
+        self.expires = expires
+        self.payload = Payload(mission.scenario)
         self.switched = _SWITCHED_OFF
+        self.outputs = AT_REST
+        """What the motion node told the power stages last."""
+        self.restarts = dict.fromkeys(NODES, 0)
+        """How often each computer has started anew."""
+        self._kept = MemoryDisk()
+        self.coordinator = self._started_coordinator(0.0, logbook)
+        self.coordinator.request(OperatorRequests(start=True))
 
     @property
     def running(self) -> bool:
         """Whether the mission goes on."""
         return self.plant.running
 
+    @property
+    def motion_mode(self) -> Mode | None:
+        """What the motion-control node is about; None if it is in a process of its own."""
+        return self.motion.link.modes.mode if isinstance(self.motion, MotionNode) else None
+
     def step(self) -> None:
         """Let one step pass."""
-        plant, bus, t = self.plant, self.bus, self.plant.time
-        felt = plant.feel()
+        plant, t, inject = self.plant, self.plant.time, self.inject
+        if isinstance(self.bus, SimulatedBus):  # faults reach no other
+            for node in inject.begin(plant, self.bus):
+                self._restart(node, t)
+        felt = inject.felt(plant.feel())
         if not plant.running:
             return
         readings = self._motion_readings(felt)
         self._acquire(felt, t)
-        frames, _ = self.motion.step(t, bus.receive(MOTION), readings, plant.step)
-        bus.send(MOTION, frames)
-        frames, to_ports = self.coordinator.step(t, bus.receive(COORDINATOR), self._bytes(felt, t))
-        bus.send(COORDINATOR, frames)
-        self.ports.to = to_ports
-        frames, outputs = self.motion.step(t, bus.receive(MOTION), readings, plant.step)
-        bus.send(MOTION, frames)
+        self._move(t, readings)
+        self._coordinate(felt, t)
+        outputs = self._move(t, readings)
         plant.move(self._drives(outputs), self._memory())
+
+    def _say(self, node: int, frames: list[Frame]) -> None:
+        self.bus.send(node, self.inject.sent(node, frames))
+
+    def _move(self, t: float, readings: MotionReadings) -> DriveOutputs:
+        """Let the motion-control node have its step; without power nothing moves."""
+        heard = self.bus.receive(MOTION)
+        if not self.inject.runs(MOTION):
+            self.outputs = AT_REST
+            return self.outputs
+        frames, self.outputs = self.motion.step(t, heard, readings, self.plant.step)
+        self._say(MOTION, frames)
+        if self.inject.falls(MOTION):
+            self.outputs = AT_REST
+        return self.outputs
+
+    def _coordinate(self, felt: Felt, t: float) -> None:
+        """Let the coordinator have its step, by its own clock."""
+        inject, heard, said = self.inject, self.bus.receive(COORDINATOR), self._bytes(felt, t)
+        if not inject.runs(COORDINATOR):
+            self.ports.to = {}
+            return
+        if inject.expired():
+            self.coordinator.expires = -inf
+        frames, self.ports.to = self.coordinator.step(inject.clock(t), heard, said)
+        self._say(COORDINATOR, frames)
+        if inject.falls(COORDINATOR):
+            inject.lose_power()
+
+    def _started_coordinator(self, t: float, logbook: Logbook | None) -> Coordinator:
+        """Switch the coordinator on, with what its disk keeps of the time before."""
+        setup, inject = self.plant.setup, self.inject
+        every, sensors = self.mission.scenario.sampling.every_s, setup.equipment.sensors
+        if inject.disk is not None:
+            identity = LogIdentity(__version__, database_hash(), self.mission.vehicle.name)
+            logbook = inject.new_logbook(inject.disk, identity, t)
+        coordinator = Coordinator(
+            coordinator_settings(setup, every, known_disturbances(sensors)), inject.clock(t), logbook=logbook,
+            store=ContinuityStore(self._kept), decision=inject.decision() or decide,
+        )  # fmt: skip
+        coordinator.adopt(setup.orders, self.expires, mission=1)
+        return coordinator
+
+    def _restart(self, node: int, t: float) -> None:
+        """Let a computer start anew after a loss of power, with what its store keeps."""
+        self.restarts[node] += 1
+        self.bus.receive(node)
+        machinery, orders = self.plant.setup.equipment.plant, self.plant.setup.orders
+        if node == MOTION:
+            self.motion = MotionNode(motion_settings(machinery, orders), self.restarts[node])
+        elif node == ACQUISITION:
+            settings = acquisition_settings(machinery)
+            self.acquisition = AcquisitionNode(settings, self.restarts[node], ctd=self.ports.ctd)
+        else:
+            self.coordinator = self._started_coordinator(t, self.coordinator.recorder.logbook)
 
     def _acquire(self, felt: Felt, t: float) -> None:
         """Let the acquisition node and its CTD have their step."""
-        ctd = self.ports.ctd
+        ctd, heard = self.ports.ctd, self.bus.receive(ACQUISITION)
+        if not self.inject.runs(ACQUISITION):
+            self.switched, self.ports.to_ctd = _SWITCHED_OFF, b""
+            return
         latitude, longitude = degrees(self.plant.setup.world["latitude"]), degrees(self.plant.setup.world["longitude"])
         sampling = self.switched.sampling
         truth = self.payload.truth(self.plant, latitude, longitude, self._utc(t)) if sampling else NOTHING
-        said = ctd.exchange(self.ports.to_ctd, truth, t)
-        frames, self.switched = self.acquisition.step(
-            t, self.bus.receive(ACQUISITION), self._acquisition_readings(felt), said
-        )
+        said = self.inject.heard("ctd", ctd.exchange(self.ports.to_ctd, self.inject.ctd(truth), t))
+        frames, self.switched = self.acquisition.step(t, heard, self._acquisition_readings(felt), said)
         self.ports.to_ctd = self.switched.ctd_bytes
-        self.bus.send(ACQUISITION, frames)
+        self._say(ACQUISITION, frames)
 
     def _bytes(self, felt: Felt, t: float) -> Mapping[str, bytes]:
         """Bytes of the coordinator's instruments."""
         ports, setup = self.ports, self.plant.setup
         truth = compass_truth(felt, setup.equipment.sensors.declination, float(setup.world["thermistor"]))
-        return {
-            COMPASS: ports.compass.exchange(ports.to.get(COMPASS, b""), truth, t),
-            GNSS: ports.gnss.exchange(ports.to.get(GNSS, b""), felt, self._utc(t), t, on=self.switched.radio),
-            RADIO: b"",
-        }
+        compass = ports.compass.exchange(ports.to.get(COMPASS, b""), truth, t)
+        gnss = ports.gnss.exchange(ports.to.get(GNSS, b""), felt, self._utc(t), t, on=self.switched.radio)
+        heard = self.inject.heard
+        return {COMPASS: heard("compass", compass), GNSS: heard("gps", gnss), RADIO: b""}
 
     def _utc(self, t: float) -> float:
         return self.plant.setup.loop.start + t
@@ -139,7 +219,7 @@ class System:
             altitude=r.altitude,
             leak_fore=r.leak,
             leak_aft=False,
-            leak_loop=True,
+            leak_loop=self.inject.leak_loop(),
             internal_pressure=r.internal_pressure,
             hull_temperature=float(world["air_temperature"]) - 273.15,
             voltage=r.voltage,
@@ -149,7 +229,7 @@ class System:
 
     def _drives(self, outputs: DriveOutputs) -> Drives:
         switched, view = self.switched, self.coordinator.view
-        ended = GOING_ON if view is None else view.commands.ended
+        ended = GOING_ON if view is None or not self.inject.runs(COORDINATOR) else view.commands.ended
         return Drives(*outputs, switched.loads, switched.sampling, switched.radio, ended)
 
     def _memory(self) -> np.record:

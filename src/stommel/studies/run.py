@@ -29,7 +29,7 @@ Progress = Callable[[int, int], None]
 """Called with the finished runs and all runs."""
 
 
-def _silent(finished: int, runs: int) -> None:
+def silent(finished: int, runs: int) -> None:
     """Show no progress: `finished` of `runs`."""
 
 
@@ -85,7 +85,7 @@ def run_study(
     workers: int | None = None,
     scheduler: str | None = None,
     restart: bool = False,
-    progress: Progress = _silent,
+    progress: Progress = silent,
 ) -> Finished:
     """Fly the runs that the journal beside `output` does not hold yet, and write the result.
 
@@ -124,7 +124,7 @@ def run_study(
         _check_first(study, records)
         tasks = [(run, values) for run, values in enumerate(study.values) if run not in records]
         progress(kept, runs)
-        with _interrupts() as stop, closing(_flights(study, tasks, workers, scheduler, stop)) as flights:
+        with interruptible() as stop, closing(_flights(study, tasks, workers, scheduler, stop)) as flights:
             for record in flights:
                 journal.keep(record)
                 records[record["run"]] = record
@@ -175,7 +175,7 @@ def _finish(study: Study, output: Path, records: dict[int, Any], kept: int) -> F
 
 
 @contextmanager
-def _interrupts() -> Iterator[threading.Event]:
+def interruptible() -> Iterator[threading.Event]:
     """Turn the first Ctrl-C into an event; the second is one as ever."""
     stop = threading.Event()
     if threading.current_thread() is not threading.main_thread():

@@ -9,7 +9,7 @@ import re
 import signal
 import threading
 import zlib
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -21,7 +21,6 @@ from typing import Any
 from stommel.errors import StommelError
 from stommel.studies.errors import StudyError
 from stommel.studies.flight import Record, fly_run
-from stommel.studies.kit import RunKit
 from stommel.studies.study_file import Value
 
 Task = tuple[int, tuple[Value, ...]]
@@ -38,7 +37,10 @@ _ONE_THREAD = dict.fromkeys(("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_N
 
 _ADDRESS = re.compile(r"(tcp|tls|wss?)://(\[[0-9a-fA-F:.]+\]|[^\s/:\[\]]+):\d{1,5}")
 
-_kit: RunKit | None = None
+Fly = Callable[[Any, int, Sequence[Any]], Record]
+"""What a worker does with its kit, the number of a run and its values."""
+
+_work: tuple[Fly, Any] | None = None
 
 
 def cores() -> int:
@@ -46,10 +48,25 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def fly_here(kit: RunKit, tasks: Sequence[Task], workers: int, stop: threading.Event) -> Generator[Record, None, None]:
+def fly_here(
+    kit: Any, tasks: Sequence[Task], workers: int, stop: threading.Event, fly: Fly = fly_run
+) -> Generator[Record, None, None]:
     """Fly runs on processes of this machine; records come as they are finished.
 
     Once `stop` is set, runs under way are finished and come too, and no others.
+
+    Parameters
+    ----------
+    kit
+        What a worker needs; a `RunKit` for `fly_run`.
+    tasks
+        Numbers of the runs and their values.
+    workers
+        Processes.
+    stop
+        Set to end early.
+    fly
+        What a worker does with each task, a function of a module.
 
     Raises
     ------
@@ -58,7 +75,7 @@ def fly_here(kit: RunKit, tasks: Sequence[Task], workers: int, stop: threading.E
     """
     context = multiprocessing.get_context("spawn")
     with _environment(_ONE_THREAD):
-        pool = ProcessPoolExecutor(min(workers, len(tasks)), context, _prepare, (_packed(kit),))
+        pool = ProcessPoolExecutor(min(workers, len(tasks)), context, _prepare, (_packed((fly, kit)),))
         waiting: set[Future[Record]] = set()
         todo = iter(tasks)
         try:
@@ -95,15 +112,15 @@ def _environment(values: dict[str, str]) -> Iterator[None]:
                 os.environ[name] = value
 
 
-def _packed(kit: RunKit) -> bytes:
-    """Pack the kit so that a pipe takes it whole; else each worker would begin only once the one before has read it."""
-    return zlib.compress(pickle.dumps(kit))
+def _packed(work: tuple[Fly, Any]) -> bytes:
+    """Pack it so that a pipe takes it whole; else each worker would begin only once the one before has read it."""
+    return zlib.compress(pickle.dumps(work))
 
 
 def _prepare(packed: bytes) -> None:
     """Begin a worker: it leaves Ctrl-C to its parent, and ends with it."""
-    global _kit  # noqa: PLW0603 - one kit for the life of the process
-    _kit = pickle.loads(zlib.decompress(packed))
+    global _work  # noqa: PLW0603 - one kit for the life of the process
+    _work = pickle.loads(zlib.decompress(packed))
     atexit.register(os._exit, 0)  # there is nothing to save, and taking the interpreter down takes half a second
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -118,12 +135,19 @@ def _end_with_parent() -> None:
 
 
 def _fly(run: int, values: tuple[Value, ...]) -> Record:
-    assert _kit is not None
-    return fly_run(_kit, run, values)
+    assert _work is not None
+    fly, kit = _work
+    return fly(kit, run, values)
 
 
 def fly_on_cluster(
-    kit: RunKit, tasks: Sequence[Task], address: str, stop: threading.Event, *, patience_s: float = 20.0
+    kit: Any,
+    tasks: Sequence[Task],
+    address: str,
+    stop: threading.Event,
+    *,
+    patience_s: float = 20.0,
+    fly: Fly = fly_run,
 ) -> Generator[Record, None, None]:
     """Fly runs on a Dask cluster; the runs of a worker that goes away are flown by the others.
 
@@ -135,6 +159,8 @@ def fly_on_cluster(
         Once it is set, no more records come.
     patience_s
         How long to wait for the scheduler, and for its first worker [s].
+    fly
+        What a worker does with each task.
 
     Raises
     ------
@@ -153,7 +179,7 @@ def fly_on_cluster(
             client.wait_for_workers(1, timeout=patience_s)
         except TimeoutError:
             raise StudyError(f"--scheduler {address}: has no workers; start some: dask worker {address}") from None
-        yield from _on_cluster(client, kit, tasks, address, stop)
+        yield from _on_cluster(client, kit, tasks, address, stop, fly)
 
 
 def _connected(distributed: Any, address: str, patience_s: float) -> Any:
@@ -172,11 +198,11 @@ def _connected(distributed: Any, address: str, patience_s: float) -> Any:
 
 
 def _on_cluster(
-    client: Any, kit: RunKit, tasks: Sequence[Task], address: str, stop: threading.Event
+    client: Any, kit: Any, tasks: Sequence[Task], address: str, stop: threading.Event, fly: Fly
 ) -> Generator[Record, None, None]:
     # a task rather than scattered data: the scheduler makes it again if its worker goes away
     shared = client.submit(_same, kit, pure=False)
-    futures = [client.submit(fly_run, shared, run, values, pure=False) for run, values in tasks]
+    futures = [client.submit(fly, shared, run, values, pure=False) for run, values in tasks]
     done: SimpleQueue[Any] = SimpleQueue()
     for future in futures:
         future.add_done_callback(done.put)
@@ -205,7 +231,7 @@ def _failed(address: str, reason: str) -> str:
     return f"--scheduler {address}: the cluster failed: {reason}; finished runs are kept, the same command goes on"
 
 
-def _same(kit: RunKit) -> RunKit:
+def _same(kit: Any) -> Any:
     return kit
 
 

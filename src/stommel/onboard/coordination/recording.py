@@ -39,6 +39,11 @@ class Recorder:
         self._failure = ""
 
     @property
+    def logbook(self) -> Logbook | None:
+        """Where the records go."""
+        return self._log
+
+    @property
     def writable(self) -> bool:
         """Whether the disk takes records; without a logbook nothing is missing."""
         return self._log is None or not self._log.blocked

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from stommel.errors import StommelError
-from stommel.messages.database import database_hash
+from stommel.messages.database import database, database_hash
 from stommel.messages.frames import Frame
 from stommel.onboard.coordination.config import Configuration
 from stommel.onboard.coordination.coordinator import Coordinator
@@ -86,6 +86,7 @@ class VehicleSoftware:
         self.figures = Figures()
         self._say, self._words = say, ""
         self._alarms: tuple[str, ...] = ()
+        database()  # read now, not in the first decision
         file, t = configuration.file, self.clock.monotonic()
         self.missions = MissionStore(_folder(configuration, file.missions, "missions"), file.limits)
         self.kept = ContinuityStore(_folder(configuration, file.parameters, "parameters"))

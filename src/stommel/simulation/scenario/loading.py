@@ -43,6 +43,9 @@ def mission_from(
 
     `vehicle` and `ocean`, already loaded, stand in for the file's own.
     """
+    if "faults" in document:
+        told = "faults: only the software in the loop can break; fly this file with `stommel sitl`, or take them out"
+        raise FileError([Problem(origin, "faults", told)])
     document = with_its_plan(document, origin, folder)
     scenario = validated(document, ScenarioFile, origin)
     if vehicle is None:

@@ -1,5 +1,6 @@
 """Sentences of NMEA 0183: read by pynmeagps, and written for the simulated receiver."""
 
+import math
 import re
 from datetime import UTC, date, datetime
 from datetime import time as time_of_day
@@ -44,7 +45,7 @@ def parsed(sentence: bytes) -> Any | None:
 
 def number(value: object) -> float | None:
     """Return a field that is a number; pynmeagps has an empty one as text."""
-    return float(value) if isinstance(value, int | float) else None
+    return float(value) if isinstance(value, int | float) and math.isfinite(value) else None
 
 
 def second_of_day(value: object) -> float | None:

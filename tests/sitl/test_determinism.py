@@ -3,7 +3,6 @@
 from dataclasses import replace
 from pathlib import Path
 
-from stommel.onboard.coordination.logbook.reader import read_log
 from tests.sitl.comparison import mission_of
 from tests.sitl.flights import digest, flown_with_log
 

@@ -1,8 +1,8 @@
 """The loop and the fast simulator fly the same mission. Oracle: the fast simulator, which knows no frame and no byte.
 
-Sensors are without errors. The vehicle in the loop checks itself first and dives some 50 s later, so that only dives are
-compared, and places from where the first one began. In the pool the fast simulator dives while the vehicle still swings
-from being put into the water; there the first dive is left out.
+Sensors are without errors. The vehicle in the loop checks itself first and dives some 50 s later, so that only dives
+are compared, and places from where the first one began. In the pool the fast simulator dives while the vehicle
+still swings from being put into the water; there the first dive is left out.
 """
 
 import pytest
@@ -14,7 +14,8 @@ from tests.sitl.comparison import apart, mission_of
 
 
 @pytest.mark.parametrize(
-    ("name", "seconds", "first", "dives"), [("kuroshio", 5200, 0, 4), ("still_20_days", 3700, 0, 3), ("pool_trial", 900, 1, 3)]
+    ("name", "seconds", "first", "dives"),
+    [("kuroshio", 5200, 0, 4), ("still_20_days", 3700, 0, 3), ("pool_trial", 900, 1, 3)],
 )
 def test_the_same_dives(name: str, seconds: float, first: int, dives: int) -> None:
     mission = mission_of(name, seconds)

@@ -10,10 +10,10 @@ from stommel.control.commands import Commands
 from stommel.control.decision import decide
 from stommel.control.orders import Orders
 from stommel.control.readings import Readings
+from stommel.instruments.gpctd.device import CtdTruth
 from stommel.messages.frames import Frame
 from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook, LogSettings
-from stommel.onboard.instruments.gpctd.device import CtdTruth
 from stommel.simulation.plant.hull_air import Hull
 from stommel.sitl.faults import table
 from stommel.sitl.faults.acting import Acting

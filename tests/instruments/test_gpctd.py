@@ -6,12 +6,12 @@ import random
 import pytest
 
 from stommel.errors import StommelError
-from stommel.onboard.instruments.gpctd.device import CtdDevice, CtdTruth
-from stommel.onboard.instruments.gpctd.driver import CtdDriver, CtdSettings, CtdState
-from stommel.onboard.instruments.gpctd.live import VARIANTS, live_reading
-from stommel.onboard.instruments.gpctd.reading import CtdReading
-from stommel.onboard.instruments.gpctd.stream import LONGEST_LINE
-from stommel.onboard.instruments.gpctd.upload import cast_of, sample, sample_line
+from stommel.instruments.gpctd.device import CtdDevice, CtdTruth
+from stommel.instruments.gpctd.driver import CtdDriver, CtdSettings, CtdState
+from stommel.instruments.gpctd.live import VARIANTS, live_reading
+from stommel.instruments.gpctd.reading import CtdReading
+from stommel.instruments.gpctd.stream import LONGEST_LINE
+from stommel.instruments.gpctd.upload import cast_of, sample, sample_line
 
 VECTOR = b"004074C76D8651408F1A"
 CAST = "cast   1 22 Jul 2026 18:23:17 samples 1 to 176, int = 5, stop = stop cmd"
@@ -110,6 +110,7 @@ def test_stored_error_values_are_no_reading(line: bytes, name: str) -> None:
     ("line", "name", "word"),
     [
         (b"9999,12.0000,3.00000", "pressure", "error value"),
+        (b"999,12.0000,3.00000", "pressure", "error value"),
         (b"9999.000,12.0000,3.00000", "pressure", "error value"),
         (b"-999,12.0000,3.00000", "pressure", "error value"),
         (b"10.000,9999.0000,3.00000", "temperature", "error value"),

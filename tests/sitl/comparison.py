@@ -40,9 +40,9 @@ def mission_of(name: str, seconds: float, *, errors: bool = False) -> Mission:
     return replace(mission, scenario=mission.scenario.model_copy(update=changes))
 
 
-def apart(fast: Flown, loop: Flown) -> Apart:
-    """Compare dive by dive; the loop starts later, because it checks itself first."""
-    begun = [flown.events[flown.events["phase"] == DESCENT] for flown in (fast, loop)]
+def apart(fast: Flown, loop: Flown, first: int = 0) -> Apart:
+    """Compare dive by dive, from the dive with a number on; the loop starts later, because it checks itself first."""
+    begun = [flown.events[flown.events["phase"] == DESCENT][first:] for flown in (fast, loop)]
     whole = min(len(one) for one in begun) - 1
     periods = [np.diff(one["time"][: whole + 1]) for one in begun]
     depths = [

@@ -1,12 +1,8 @@
 """The dive cycle as a table and a diagram, both from `stommel.control.dive_cycle.TRANSITIONS`."""
 
 from collections.abc import Iterator
-from itertools import groupby
-from textwrap import fill
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
-from matplotlib.patches import FancyArrowPatch
+import state_diagram
 
 from stommel.control.dive_cycle import (
     CONDITIONS,
@@ -17,7 +13,6 @@ from stommel.control.dive_cycle import (
     TRANSITIONS,
     Transition,
 )
-from stommel.figures.saving import svg_text
 
 _PLACES = {
     "surface": (0.16, 0.93),
@@ -41,8 +36,6 @@ _LABELS = {
 }
 """Where the words of each way stand."""
 
-_INK, _PAPER, _ROOM = "#1f2937", "#ffffff", "#dbeafe"
-
 
 def _reason(row: Transition) -> str:
     return {KEPT: "", THE_ALARM: "the alarm"}.get(row.reason) or (EVENTS[row.reason] if row.reason >= 0 else "")
@@ -60,25 +53,9 @@ def transition_table() -> Iterator[str]:
 
 def diagram() -> str:
     """SVG of the phases and the ways between them."""
-    figure = Figure(figsize=(9.0, 6.6), facecolor=_PAPER)
-    FigureCanvasAgg(figure)
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0))
-    axes.axis("off")
-    rooms = {}
-    for name, (x, y) in _PLACES.items():
-        box = {"boxstyle": "round,pad=0.5", "facecolor": _ROOM, "edgecolor": _INK}
-        text = axes.text(x, y, name, ha="center", va="center", fontsize=13, color=_INK, bbox=box, zorder=3)
-        rooms[name] = text.get_bbox_patch()
-    ways = sorted((row for row in TRANSITIONS if row.next != row.phase), key=lambda row: (row.phase, row.next))
-    for (phase, then), rows in groupby(ways, key=lambda row: (PHASES[row.phase], PHASES[row.next])):
-        arrow = FancyArrowPatch(
-            _PLACES[phase], _PLACES[then], arrowstyle="-|>", mutation_scale=18, shrinkA=0, shrinkB=2,
-            patchA=rooms[phase], patchB=rooms[then], color=_INK, linewidth=1.2, zorder=3.5,
-        )  # fmt: skip
-        axes.add_patch(arrow)
-        words = "\n".join(fill(CONDITIONS[row.condition], 40) for row in rows)
-        x, y = _LABELS[phase, then]
-        back = {"facecolor": _PAPER, "edgecolor": "none", "pad": 1.5}
-        axes.text(x, y, words, ha="center", va="center", fontsize=8.5, color=_INK, bbox=back, zorder=4)
-    return svg_text(figure)
+    ways = [(PHASES[row.phase], PHASES[row.next], CONDITIONS[row.condition]) for row in TRANSITIONS]
+    return state_diagram.drawn(_PLACES, _LABELS, sorted(ways, key=lambda way: _order(way[0], way[1])))
+
+
+def _order(phase: str, then: str) -> tuple[int, int]:
+    return PHASES.index(phase), PHASES.index(then)

@@ -19,6 +19,9 @@ from typing import Any, Literal, get_args, get_origin
 
 import can_tables
 import dive_cycle
+import log_tables
+import node_tables
+import vehicle_software
 from docutils import nodes
 from pydantic import BaseModel, BeforeValidator
 from sphinx.application import Sphinx
@@ -31,6 +34,10 @@ from stommel.files.docstrings import attribute_docstrings
 from stommel.files.sentences import allowed_range
 from stommel.files.table_keys import models_in
 from stommel.files.units import unit_of
+from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
+from stommel.onboard.execution.motion_settings import MotionSettings
+from stommel.onboard.coordination.compass.calibration_file import CalibrationFile
+from stommel.onboard.coordination.config.tables import ConfigurationFile
 from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle.schema import VehicleFile
 
@@ -196,10 +203,28 @@ def write_pages(app: Sphinx) -> None:
     meanings = tomllib.loads((Path(app.srcdir) / "guide" / "meanings.toml").read_text(encoding="utf-8"))
     _write(folder / "vehicle-file.md", "".join(file_tables(VehicleFile, meanings["meaning"], "vehicle file")))
     _write(folder / "mission-file.md", "".join(file_tables(ScenarioFile, meanings["mission"], "mission file")))
+    _write(
+        folder / "vehicle-configuration.md",
+        "".join(file_tables(ConfigurationFile, meanings["configuration"], "vehicle configuration")),
+    )
+    _write(
+        folder / "compass-calibration.md",
+        "".join(file_tables(CalibrationFile, meanings["calibration"], "compass calibration")),
+    )
     _write(folder / "validation.md", validation_report())
     _write(folder / "can-messages.md", "".join(can_tables.can_tables()))
+    _write(folder / "log-records.md", "".join(log_tables.log_tables()))
     _write(folder / "dive-cycle.md", "".join(dive_cycle.transition_table()))
     _write(folder / "dive-cycle.svg", dive_cycle.diagram())
+    _write(folder / "executive.md", "".join(vehicle_software.executive_table()))
+    _write(folder / "executive.svg", vehicle_software.executive_diagram())
+    _write(folder / "failsafes.md", "".join(vehicle_software.failsafe_table()))
+    _write(folder / "start-checks.md", "".join(vehicle_software.start_check_table()))
+    _write(folder / "conditions.md", "".join(vehicle_software.condition_table()))
+    _write(folder / "node-states.md", "".join(node_tables.transition_table()))
+    _write(folder / "node-states.svg", node_tables.diagram())
+    _write(folder / "motion-parameters.md", "".join(node_tables.parameter_table(MotionSettings())))
+    _write(folder / "acquisition-parameters.md", "".join(node_tables.parameter_table(AcquisitionSettings())))
     reference = folder / "reference"
     walked = pkgutil.walk_packages(stommel.__path__, "stommel.")
     packages = ["stommel", *(info.name for info in walked if info.ispkg)]

@@ -11,6 +11,7 @@ from functools import reduce
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import typer
 
@@ -19,6 +20,7 @@ from stommel.onboard.coordination.logbook.framing import LogIdentity, encoder, h
 from stommel.onboard.coordination.logbook.records import CTD, ESSENTIAL
 from stommel.vehicle import builtin_text
 from tests.cli.test_terminal_equals_json import leaves
+from tests.onboard.coordination.magnetic_vehicle import MagneticVehicle, samples_text
 from tests.support.command import Outcome, run_here
 
 CHANGED = object()
@@ -227,6 +229,16 @@ CASES: dict[str, dict[str, Case]] = {
         "--with": ("a.toml --force", "--with hull,engine", {"sections": ["hull", "engine"]}),
         "--force": ("old.toml", "--force", {"written": ["old.toml"]}),
     },
+    "vehicle config": {
+        "--output": ("zju", "--output begun", {"written": ["begun/CONFIG.toml"]}),
+        "--force": ("zju --output begun-before", "--force", {"written": ["begun-before/CONFIG.toml"]}),
+    },
+    "vehicle calibrate-compass": {
+        "--output": ("turned.csv", "--output c.toml", {"written": ["c.toml"]}),
+        "--iron": ("turned.csv", "--iron hard", {"correction.0.0": 1.0, "residual_ut": CHANGED}),
+        "--name": ("turned.csv --output c.toml --force", "--name north", {"name": "north"}),
+        "--force": ("turned.csv --output old.toml", "--force", {"written": ["old.toml"]}),
+    },
     "bench generate": {
         "--output": ("zju --pressure-mpa 0 --speed-rpm 7000", "--output g.csv", {"written": ["g.csv", "g.toml"]}),
         "--seed": ("zju --pressure-mpa 0 --speed-rpm 7000 --output g.csv", "--seed 5", {"seed": 5}),
@@ -333,6 +345,7 @@ BASES_THAT_ARE_REFUSED = {
     ("steady", "--ballast-ml"), ("turn", "--ignore-limits"), ("turn", "--turn-rate"), ("turn", "--radius"),
     ("root-locus", "--over"), ("root-locus", "--from"), ("root-locus", "--to"), ("derivative", "--states"),
     ("hull", "--materials"), ("budget", "--force"), ("simulate", "--list"), ("vehicle new", "--force"),
+    ("vehicle config", "--output"), ("vehicle config", "--force"), ("vehicle calibrate-compass", "--force"),
     ("bench generate", "--output"), ("bench analyse", "--map"), ("bench fit", "--map"),
     ("can dump", "--interface"), ("can send", "--interface"),
 }  # fmt: skip
@@ -356,6 +369,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
              "attitude_deg": [0.0, -30.0, 0.0], "moving_mass_position_m": 0.4, "ballast_volume_m3": -1e-4}  # fmt: skip
     (path / "states.json").write_text(json.dumps([state]))
     (path / "torn.log").write_bytes(TORN)
+    (path / "turned.csv").write_text(TURNED)
+    (path / "begun-before").mkdir()
+    (path / "begun-before" / "CONFIG.toml").write_text("in the way")
     (path / "short.toml").write_text(MISSION)
     (path / "mine.toml").write_text(MATERIAL)
     (path / "cast.csv").write_text(CAST)
@@ -366,6 +382,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+TURNED = samples_text(MagneticVehicle(60.0), np.random.default_rng(1))
 SAMPLE = encoder(CTD)
 TORN = header(LogIdentity("0", 1), 0, ESSENTIAL, 0) + b"".join(
     SAMPLE(i, (float(i), 3.5, 10.0, 5.0)) if i != 1 else b"damaged" for i in range(4)

@@ -812,7 +812,7 @@ def test_of_many_waypoints_the_last_that_were_reached_and_the_next_are_shown(
     capsys: pytest.CaptureFixture[str], planned: int, reached: int, first: int
 ) -> None:
     """Twelve rows: among them always the one that was sought at the end, and the one after it."""
-    from stommel.cli.simulate import _show_waypoints
+    from stommel.cli.flown import _show_waypoints
 
     rows = [waypoint(k + 1, reached=k < reached) for k in range(planned)]
     _show_waypoints(rows)

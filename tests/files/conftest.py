@@ -20,10 +20,14 @@ from stommel.dynamics.state_files import read_states
 from stommel.machinery.engine import load_engine
 from stommel.machinery.hull import load_materials
 from stommel.mission.loading import load_plan
+from stommel.onboard.coordination.compass.calibration_file import read_calibration
+from stommel.onboard.coordination.compass.samples_file import read_samples
+from stommel.onboard.coordination.config import read_configuration
 from stommel.seawater import read_stratification
 from stommel.simulation.scenario.loading import load_mission
 from stommel.studies.study import load_study
 from stommel.vehicle import builtin_text, load_vehicle
+from tests.support.configuration import CALIBRATION, CONFIGURATION
 from tests.support.orders import ORDERS
 
 COLUMNS = """
@@ -106,6 +110,8 @@ TOML_KINDS: dict[str, tuple[Callable[[str], Any], Callable[[], str]]] = {
     "plan": (load_plan, lambda: PLAN),
     "flight table": (lambda path: str(read_flight_table(path)), lambda: FLIGHT_TABLE),
     "orders": (lambda path: str(read_orders(path)), lambda: ORDERS),
+    "configuration": (lambda path: read_configuration(path).file, lambda: CONFIGURATION),
+    "compass calibration": (read_calibration, lambda: CALIBRATION),
     "study": (lambda path: load_study(path).file, lambda: STUDY),
     "engine": (load_engine, lambda: shipped("stommel.machinery.engine", "examples/high-pressure.toml")),
     "materials": (lambda path: load_materials(Path(path)), lambda: shipped("stommel.machinery.hull", "materials.toml")),
@@ -118,6 +124,7 @@ TABLES: dict[str, Callable[[str], Any]] = {
     "profile": read_stratification,
     "engine log": _log,
     "table of holds": lambda path: read_pressure_test(path),
+    "compass samples": read_samples,
     "states": lambda path: read_states(Path(path)),
 }
 """What loads the other texts."""

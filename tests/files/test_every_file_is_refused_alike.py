@@ -124,6 +124,7 @@ VERBS: dict[str, tuple[str, ...]] = {
     "materials": ("hull", "zju", "--materials", "PATH"),
     "column map": ("bench", "analyse", "log.csv", "--map", "PATH"),
     "pressure test": ("bench", "pressure", "log.csv", "--description", "PATH"),
+    "compass samples": ("vehicle", "calibrate-compass", "PATH"),
     "engine log": ("bench", "analyse", "PATH"),
     "table of holds": ("bench", "pressure", "PATH"),
     "states": ("derivative", "zju", "--states", "PATH"),

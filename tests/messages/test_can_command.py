@@ -1,9 +1,12 @@
 """`stommel can`. Oracle: what was put on the bus beside it, and the same numbers as words and as JSON."""
 
 import json
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -173,3 +176,31 @@ def test_the_choices_are_the_interfaces() -> None:
 def test_an_empty_log_is_an_answer(stommel: Command, tmp_path: Path) -> None:
     (tmp_path / "empty.log").write_text("")
     assert json.loads(stommel("can", "decode", "empty.log", "--json").out)["frames"] == []
+
+
+def test_listening_ends_by_hand_with_what_was_heard(stommel: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ctrl-C is how a bench ends it: an answer, not an error."""
+    looks = iter([None, None, KeyboardInterrupt])
+
+    def sleep(seconds: float) -> None:
+        time.sleep(seconds)
+        if (interruption := next(looks)) is not None:
+            raise interruption
+
+    monkeypatch.setattr("stommel.cli.can.time", SimpleNamespace(sleep=sleep, monotonic=time.monotonic))
+    found = stommel("can", "dump", "--interface", "virtual", "--seconds", 60, "--json")
+    assert (found.status, found.err) == (0, "")
+    assert found.json["reports"] == ["ended by hand"]
+    assert found.json["listened_s"] < 10.0
+
+
+def test_words_aboard_load_no_adapter_and_no_database() -> None:
+    """The vehicle's software starts in two seconds on a small board: python-can and cantools come when used."""
+    program = """
+import sys
+import stommel.messages.adapters, stommel.messages.bus, stommel.messages.commanding
+import stommel.messages.nodes, stommel.messages.parameter_files, stommel.messages.spoken
+print(sorted({"can", "cantools", "numpy", "numba", "scipy"} & set(sys.modules)))
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"

@@ -40,6 +40,7 @@ CALLS: tuple[tuple[object, ...], ...] = (
     ("vehicle", "show", "rogue"),
     ("vehicle", "check", "rogue"),
     ("vehicle", "new", "mine.toml", "--force"),
+    ("vehicle", "config", "zju", "--output", "begun", "--force"),
     ("bench", "generate", "zju", "--output", "made.csv", "--pressure-mpa", "0,1", "--speed-rpm", "5000,7000"),
     ("bench", "speed", "zju"),
     ("bench", "pressure", "fan2013-table5"),

@@ -10,6 +10,7 @@ from stommel.cli import (
     budget,
     can,
     compass,
+    configuration,
     derivative,
     design,
     drives,
@@ -80,6 +81,7 @@ app.command("simulate")(simulate.simulate)
 app.command("study")(study.study)
 app.command("vehicles")(vehicles.vehicles)
 vehicles.vehicle_app.command("calibrate-compass")(compass.calibrate_compass)
+vehicles.vehicle_app.command("config")(configuration.vehicle_config)
 app.add_typer(vehicles.vehicle_app, name="vehicle")
 app.add_typer(bench.bench_app, name="bench")
 app.add_typer(ocean.ocean_app, name="ocean")

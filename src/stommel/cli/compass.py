@@ -69,12 +69,13 @@ def calibrate_compass(
     if output is not None:
         write_calibration(output, fit, fields, name, datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"))
         written.append(output)
-    finish(_answer(fit, fields), written, as_json, lambda answer: _show(answer, fit.warnings))
+    finish(_answer(name, fit, fields), written, as_json, lambda answer: _show(answer, fit.warnings))
 
 
-def _answer(fit: "CompassFit", fields: Mapping[str, "LearnedField"]) -> dict[str, Any]:
+def _answer(name: str, fit: "CompassFit", fields: Mapping[str, "LearnedField"]) -> dict[str, Any]:
     coverage = fit.coverage
     return {
+        "name": name,
         "samples": coverage.samples,
         "hard_iron_ut": fit.hard_iron.tolist(),
         "correction": fit.correction.tolist(),
@@ -103,7 +104,7 @@ def _show(answer: dict[str, Any], warnings: tuple[str, ...]) -> None:
     low, high = answer["pitch_deg"]
     port, starboard = answer["roll_deg"]
     show_values(
-        f"Compass: {answer['samples']} samples",
+        f"{answer['name']}: {answer['samples']} samples",
         {
             "hard iron": f"{_vector(answer['hard_iron_ut'], 2)} uT",
             "soft iron's correction": "\n".join(_vector(row, 4) for row in answer["correction"]),

@@ -51,7 +51,7 @@ def orders(
     from stommel.control.orders_file import OrdersHeader, write_orders
     from stommel.simulation.scenario.loading import load_mission
     from stommel.simulation.scenario.shipped import mission_path
-    from stommel.vehicle.fingerprint import fingerprint
+    from stommel.vehicle.fingerprint import untrimmed_fingerprint
     from stommel.version import __version__
 
     loaded = load_mission(mission_path(mission))
@@ -59,7 +59,7 @@ def orders(
         mission=loaded.scenario.name,
         created_from=Path(loaded.origin).name,
         vehicle=loaded.vehicle.name,
-        vehicle_sha256=fingerprint(loaded.vehicle),
+        vehicle_sha256=untrimmed_fingerprint(loaded.vehicle),
         physics=loaded.scenario.physics,
         density_kg_m3=loaded.vehicle.neutral_density_kg_m3,
         stommel=__version__,

@@ -11,10 +11,12 @@ from stommel.cli.options import ForceOption, JsonOption, VehicleArgument, load
 from stommel.cli.output import number, show_entries, show_notes, show_table, show_values
 from stommel.cli.paths import file_parser, refuse_existing
 from stommel.cli.vehicle_log import log
+from stommel.cli.vehicle_run import run
 from stommel.files.units import counted
 
 vehicle_app = typer.Typer(help="Look at, check and begin vehicle files; read a vehicle's log.")
 vehicle_app.command("log")(log)
+vehicle_app.command("run")(run)
 
 
 def vehicles(as_json: JsonOption = False) -> None:

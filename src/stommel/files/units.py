@@ -19,6 +19,8 @@ UNITS = {
     "m3_s_m": "m3 s/m", "mpa_ml": "MPa/ml", "mpa_s_ml": "MPa s/ml", "mpa_s2_ml2": "MPa s2/ml2",
     # of electricity, energy and magnetic fields
     "a": "A", "ah": "A h", "v": "V", "ohm": "ohm", "w": "W", "wh": "W h", "j": "J", "ut": "uT",
+    # of a log
+    "mib": "MiB",
     # of the sea
     "c": "deg C", "per_k": "1/K", "psu": "psu", "g_kg": "g/kg", "conductivity_noise_s_m": "S/m", "sv": "Sv",
     # said in words

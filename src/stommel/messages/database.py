@@ -4,6 +4,7 @@ import hashlib
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
+from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
@@ -99,6 +100,24 @@ def limits_of(identifier: int) -> tuple[tuple[str, float, float], ...]:
         if low is not None and high is not None and (high - low) / signal.scale < (1 << signal.length) - 1.5:
             found.append((signal.name, low - half, high + half))
     return tuple(found)
+
+
+@cache
+def sayable(message: str) -> dict[str, tuple[float, float]]:
+    """Lowest and highest value of each signal of a message; infinite where the file does not say.
+
+    Raises
+    ------
+    KeyError
+        There is no such message.
+    """
+    return {
+        signal.name: (
+            -inf if signal.minimum is None else float(signal.minimum),
+            inf if signal.maximum is None else float(signal.maximum),
+        )
+        for signal in message_named(message).signals
+    }
 
 
 @cache

@@ -3,7 +3,7 @@
 from stommel.errors import FileError, Problem
 from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits
 from stommel.vehicle import Vehicle
-from stommel.vehicle.fingerprint import fingerprint
+from stommel.vehicle.fingerprint import untrimmed_fingerprint
 
 
 def vehicle_limits(vehicle: Vehicle) -> VehicleLimits:
@@ -27,7 +27,7 @@ def vehicle_limits(vehicle: Vehicle) -> VehicleLimits:
     steering = {"rudder": d.actuators.rudder, "roll": d.actuators.roll}.get(d.steers_by or "")
     battery = d.battery
     return VehicleLimits(
-        vehicle_sha256=fingerprint(vehicle),
+        vehicle_sha256=untrimmed_fingerprint(vehicle),
         ballast_ml=engine.range_ml,
         moving_mass_mm=drive.travel_mm,
         steering_deg=steering.travel_deg if steering is not None else 0.0,

@@ -15,6 +15,7 @@ from stommel.dynamics.equations import state_from_array
 from stommel.dynamics.state import DEPTH, R_PX, STATE_SIZE, V_B
 from stommel.geometry.attitude import attitude_of
 from stommel.geometry.earth import metres_per_radian, to_waypoint
+from stommel.geometry.vectors import Vector
 from stommel.machinery.hull.floating import water_line
 from stommel.ocean.kernel.column import fill_column, water_at
 from stommel.ocean.kernel.grid import BOTTOM, HELD, LAND, TIME, Column, OceanGrid
@@ -27,7 +28,7 @@ from stommel.simulation.plant.hull_air import AIR_PERIOD, Hull, hold_air
 from stommel.simulation.plant.motion import advance, surplus_volume
 from stommel.simulation.plant.parameters import Plant
 from stommel.simulation.plant.power import consume
-from stommel.simulation.plant.sensing import feel_temperature, listen, oil_volume, sense
+from stommel.simulation.plant.sensing import feel_temperature, felt_field, listen, oil_volume, sense
 from stommel.simulation.plant.sensors import Sensors
 from stommel.simulation.plant.waves import Waves, antenna_emerges
 from stommel.simulation.timing import Loop
@@ -249,7 +250,7 @@ def end_step(
 
 
 @compiled
-def end_driven_step(
+def driven_step(
     equipment: Equipment,
     sea: Sea,
     loop: Loop,
@@ -264,10 +265,12 @@ def end_driven_step(
     wear: Wear,
     before: float,
     tick: int,
-) -> int:
-    """Second half of a control step whose actuators are driven by the vehicle's own electronics, well or worn.
+) -> tuple[int, Readings, Vector]:
+    """Move from one look at the sensors to the next, by the vehicle's own electronics, well or worn.
 
-    `memory` is only written down: the software that drives keeps its own.
+    The second half of control step `tick` and the first half of the one after: RUNNING or how the mission ended, what
+    the sensors say then, and the field at the compass. `memory` is only written down: the software that drives keeps
+    its own.
     """
     k, trial = np.empty((4, STATE_SIZE)), np.empty(STATE_SIZE)
     t = tick * loop.control_step
@@ -282,7 +285,9 @@ def end_driven_step(
     outcome: int = _go_on(
         equipment, sea, loop, column, x, k, trial, memory, world, noise, log, water, readings, drives, done, tick
     )
-    return outcome
+    if outcome == RUNNING:
+        outcome, readings, _ = _begin(equipment, sea, loop, column, x, memory, world, noise, log, tick + 1)
+    return outcome, readings, felt_field(equipment.sensors, world, state_from_array(x).Q)
 
 
 @compiled

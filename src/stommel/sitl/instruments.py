@@ -1,13 +1,10 @@
 """The simulated instruments at their ports: from what the plant feels to the bytes that the devices send."""
 
 import math
-from collections.abc import Sequence
 
 from stommel.geometry.attitude import wrapped
 from stommel.geometry.vectors import Vector
 from stommel.onboard.instruments.gnss.device import GnssDevice, GnssTruth
-from stommel.onboard.instruments.gpctd.device import CtdDevice, CtdTruth
-from stommel.onboard.instruments.gpctd.driver import CtdDriver
 from stommel.onboard.instruments.tcm.device import CompassDevice, CompassTruth
 from stommel.sitl.plant import Felt
 
@@ -88,32 +85,3 @@ class GnssPort:
             self._place = (readings.fix_latitude, readings.fix_longitude)
         latitude, longitude = self._place or (0.0, 0.0)
         return self.device.take(data, GnssTruth(latitude, longitude, utc, readings.fixed, 0.0), t)
-
-
-class CtdPort:
-    """The CTD with its driver, as the data-acquisition node wants it."""
-
-    def __init__(self) -> None:
-        self.device, self.driver = CtdDevice(), CtdDriver()
-        self._due = -math.inf
-        self._out = b""
-        self._interval = 1.0
-
-    def take(self, data: bytes, t: float) -> Sequence[tuple[float, float, float]]:
-        """Samples that are complete with these bytes, one each interval."""
-        samples = []
-        for reading in self.driver.take(data, t):
-            if t >= self._due - 1e-6:
-                self._due = t + self._interval
-                samples.append((reading.pressure, reading.temperature, reading.conductivity))
-        return samples
-
-    def poll(self, t: float, sampling: bool, interval: float) -> bytes:
-        """Bytes to send, so that it samples or rests."""
-        self._interval = interval
-        self.driver.sample(sampling)
-        return self.driver.poll(t)
-
-    def exchange(self, data: bytes, truth: CtdTruth, t: float) -> bytes:
-        """Bytes that the instrument sends until a time [s]."""
-        return self.device.take(data, truth, t)

@@ -1,7 +1,7 @@
 """The plant below the vehicle's electronics: what its sensors feel, and what its power stages move."""
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -9,29 +9,21 @@ from stommel.compilation import compiled
 from stommel.control.readings import Readings
 from stommel.dynamics.equations import net_weight, state_from_array
 from stommel.dynamics.state import DEPTH, R_PX, V_B
-from stommel.geometry.vectors import Vector, add, matrix_times, to_body
+from stommel.geometry.vectors import Vector
 from stommel.ocean.kernel.column import water_at
 from stommel.ocean.kernel.grid import TIME, Column
 from stommel.simulation.flight import Flown, flown_of
-from stommel.simulation.mission_loop import OUTCOMES, RUNNING, begin_step, end_driven_step
+from stommel.simulation.mission_loop import OUTCOMES, RUNNING, begin_step, driven_step
 from stommel.simulation.plant.driven import AS_NEW, Drives, Wear
 from stommel.simulation.plant.hull_air import Hull
 from stommel.simulation.plant.parameters import PITCH_DRIVE, PUMP, STEERING
-from stommel.simulation.plant.sensing import disturbing_field
-from stommel.simulation.plant.sensors import Sensors
+from stommel.simulation.plant.sensing import felt_field
 from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.setup import Setup, prepare
 from stommel.simulation.writing import salinity_at
 
 FLAT = 1e-6
 """Voltage below which a battery gives nothing [V]."""
-
-
-@compiled
-def felt_field(sensors: Sensors, world: np.record, x: np.ndarray) -> Vector:
-    """Magnetic field at the compass in the body frame, in parts of the Earth's, with all iron and what runs now."""
-    b = matrix_times(sensors.soft_iron, to_body(state_from_array(x).Q, sensors.field))
-    return add(add(b, sensors.hard_iron), disturbing_field(sensors, world))
 
 
 @compiled
@@ -94,8 +86,7 @@ class Plant:
     wear: Wear = AS_NEW
     tick: int = 0
     outcome: int = RUNNING
-    _readings: Readings | None = None
-    _currents: Currents = AT_REST
+    _felt: Felt | None = None
 
     @classmethod
     def of(cls, mission: Mission) -> "Plant":
@@ -134,17 +125,15 @@ class Plant:
         return float(self.setup.x[DEPTH])
 
     def feel(self) -> Felt:
-        """Let the world go on to this step and read the sensors."""
-        s = self.setup
-        self.outcome, readings = begin_step(
-            s.equipment, s.sea, s.loop, s.column, s.x, s.memory, s.world, s.noise, s.log, self.tick
-        )
-        self._readings = Readings(*readings)
-        mass, r_px = s.equipment.plant.mass, s.x[R_PX]
-        fore, aft = r_px >= mass.high - 1e-9, r_px <= mass.low + 1e-9
-        broken = self.wear.switches == 0.0
-        field = felt_field(s.equipment.sensors, s.world, s.x)
-        return Felt(self._readings, field, self._currents, fore and not broken, aft and not broken)
+        """Read the sensors at this step."""
+        if self._felt is None:
+            s = self.setup
+            self.outcome, readings = begin_step(
+                s.equipment, s.sea, s.loop, s.column, s.x, s.memory, s.world, s.noise, s.log, self.tick
+            )
+            field = felt_field(s.equipment.sensors, s.world, state_from_array(s.x).Q)
+            self._felt = self._felt_of(readings, field, AT_REST)
+        return self._felt
 
     def water(self) -> WaterFelt:
         """What the CTD feels at this step."""
@@ -156,16 +145,20 @@ class Plant:
 
         A vehicle whose software is down keeps the memory of before in the record.
         """
-        assert self._readings is not None, "feel() comes before move()"
-        s, before = self.setup, float(self.setup.memory.phase)
+        felt, s, before = self.feel(), self.setup, float(self.setup.memory["phase"])
         np.asarray(s.memory)[()] = memory
-        energy = s.world.energy.copy()
-        self.outcome = end_driven_step(
-            s.equipment, s.sea, s.loop, s.column, s.x, s.memory, s.world, s.noise, s.log, self._readings, drives,
+        energy = s.world["energy"].copy()
+        self.outcome, readings, field = driven_step(
+            s.equipment, s.sea, s.loop, s.column, s.x, s.memory, s.world, s.noise, s.log, felt.readings, drives,
             self.wear, before, self.tick,
         )  # fmt: skip
-        self._currents = self._currents_of(s.world.energy - energy, drives)
         self.tick += 1
+        self._felt = self._felt_of(readings, field, self._currents_of(s.world["energy"] - energy, drives))
+
+    def _felt_of(self, readings: tuple[Any, ...], field: Vector, currents: Currents) -> Felt:
+        mass, r_px, broken = self.setup.equipment.plant.mass, self.setup.x[R_PX], self.wear.switches == 0.0
+        fore, aft = bool(r_px >= mass.high - 1e-9), bool(r_px <= mass.low + 1e-9)
+        return Felt(Readings(*readings), field, currents, fore and not broken, aft and not broken)
 
     def spare(self, depth: float) -> float:
         """Volume by which the vehicle as it is now would be too light at a depth [m3]; negative if it would sink."""
@@ -176,7 +169,7 @@ class Plant:
     @property
     def oil(self) -> float:
         """Oil outside, as ballast volume [m3]."""
-        return float(self.setup.x[V_B] + self.setup.world.leaked - self.setup.world.dropped)
+        return float(self.setup.x[V_B] + self.setup.world["leaked"] - self.setup.world["dropped"])
 
     def replace_hull(self, hull: Hull) -> None:
         """Let the hull be another one from now on."""
@@ -188,7 +181,7 @@ class Plant:
         return flown_of(self.mission, self.setup, self.outcome)
 
     def _currents_of(self, energy: np.ndarray, drives: Drives) -> Currents:
-        voltage = self.setup.world.voltage * self.step
+        voltage = self.setup.world["voltage"] * self.step
         if not voltage > FLAT:
             return Currents(0.0, 0.0, 0.0)
         on = (max(drives.pump, drives.valve), abs(drives.mass), abs(drives.steering))

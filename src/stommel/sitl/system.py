@@ -12,12 +12,12 @@ import numpy as np
 
 from stommel import __version__
 from stommel.control.commands import GOING_ON
+from stommel.control.decision import decide
 from stommel.messages.database import ACQUISITION, COORDINATOR, MOTION, database_hash
 from stommel.messages.frames import Frame
 from stommel.onboard.coordination.coordinator import COMPASS, GNSS, RADIO, Coordinator
 from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook
-from stommel.onboard.coordination.safety import standing_alarms
 from stommel.onboard.coordination.situation import OperatorRequests
 from stommel.onboard.execution.acquisition_io import AcquisitionOutputs, AcquisitionReadings
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
@@ -26,9 +26,11 @@ from stommel.onboard.execution.motion_node import MotionNode
 from stommel.simulation.plant.driven import Drives
 from stommel.simulation.scenario.mission import Mission
 from stommel.sitl.can_bus import SimulatedBus
+from stommel.sitl.ctd_port import CtdPort
 from stommel.sitl.equipment import acquisition_settings, coordinator_settings, known_disturbances, motion_settings
 from stommel.sitl.faults.injector import Injector
-from stommel.sitl.instruments import CompassPort, CtdPort, GnssPort, compass_truth
+from stommel.sitl.instruments import CompassPort, GnssPort, compass_truth
+from stommel.sitl.nodes import Acquisition, Bus, Motion
 from stommel.sitl.payload import NOTHING, Payload
 from stommel.sitl.plant import Felt, Plant
 
@@ -80,9 +82,11 @@ class System:
         setup = self.plant.setup
         machinery, orders = setup.equipment.plant, setup.orders
         self.ports = Ports()
-        self.bus = SimulatedBus(NODES)
-        self.motion = MotionNode(motion_settings(machinery, orders))
-        self.acquisition = AcquisitionNode(acquisition_settings(machinery), ctd=self.ports.ctd)
+        self.simulated_bus = SimulatedBus(NODES)
+        """Where faults act."""
+        self.bus: Bus = self.simulated_bus
+        self.motion: Motion = MotionNode(motion_settings(machinery, orders))
+        self.acquisition: Acquisition = AcquisitionNode(acquisition_settings(machinery), ctd=self.ports.ctd)
         self.expires = expires
         self.payload = Payload(mission.scenario)
         self.switched = _SWITCHED_OFF
@@ -90,7 +94,7 @@ class System:
         """What the motion node told the power stages last."""
         self.restarts = dict.fromkeys(NODES, 0)
         """How often each computer has started anew."""
-        self.coordinator = self._started_coordinator(0.0, logbook, (), False)
+        self.coordinator = self._started_coordinator(0.0, logbook)
         self.coordinator.request(OperatorRequests(start=True))
 
     @property
@@ -101,7 +105,7 @@ class System:
     def step(self) -> None:
         """Let one step pass."""
         plant, t, inject = self.plant, self.plant.time, self.inject
-        for node in inject.begin(plant, self.bus):
+        for node in inject.begin(plant, self.simulated_bus):
             self._restart(node, t)
         felt = inject.felt(plant.feel())
         if not plant.running:
@@ -141,10 +145,8 @@ class System:
         if inject.falls(COORDINATOR):
             inject.lose_power()
 
-    def _started_coordinator(
-        self, t: float, logbook: Logbook | None, standing: tuple[str, ...], started: bool
-    ) -> Coordinator:
-        """Switch the coordinator on."""
+    def _started_coordinator(self, t: float, logbook: Logbook | None) -> Coordinator:
+        """Switch the coordinator on, with what its store keeps."""
         setup, inject = self.plant.setup, self.inject
         every, sensors = self.mission.scenario.sampling.every_s, setup.equipment.sensors
         if inject.disk is not None:
@@ -152,7 +154,7 @@ class System:
             logbook = inject.new_logbook(inject.disk, identity, t)
         coordinator = Coordinator(
             coordinator_settings(setup, every, known_disturbances(sensors)), inject.clock(t), logbook=logbook,
-            restarts=self.restarts[COORDINATOR], standing=standing, started=started, decision=inject.decision(),
+            store=inject.store(), decision=inject.decision() or decide,
         )  # fmt: skip
         coordinator.adopt(setup.orders, self.expires)
         return coordinator
@@ -168,10 +170,7 @@ class System:
             settings = acquisition_settings(machinery)
             self.acquisition = AcquisitionNode(settings, self.restarts[node], ctd=self.ports.ctd)
         else:
-            view, logbook = self.coordinator.view, self.coordinator.recorder.logbook
-            standing = () if view is None else standing_alarms(view.safety)
-            started = view is None or view.executive.started
-            self.coordinator = self._started_coordinator(t, logbook, standing, started)
+            self.coordinator = self._started_coordinator(t, self.coordinator.recorder.logbook)
 
     def _acquire(self, felt: Felt, t: float) -> None:
         """Let the acquisition node and its CTD have their step."""
@@ -179,7 +178,7 @@ class System:
         if not self.inject.runs(ACQUISITION):
             self.switched, self.ports.to_ctd = _SWITCHED_OFF, b""
             return
-        latitude, longitude = degrees(self.plant.setup.world.latitude), degrees(self.plant.setup.world.longitude)
+        latitude, longitude = degrees(self.plant.setup.world["latitude"]), degrees(self.plant.setup.world["longitude"])
         sampling = self.switched.sampling
         truth = self.payload.truth(self.plant, latitude, longitude, self._utc(t)) if sampling else NOTHING
         said = self.inject.heard("ctd", ctd.exchange(self.ports.to_ctd, self.inject.ctd(truth), t))
@@ -190,7 +189,7 @@ class System:
     def _bytes(self, felt: Felt, t: float) -> Mapping[str, bytes]:
         """Bytes of the coordinator's instruments."""
         ports, setup = self.ports, self.plant.setup
-        truth = compass_truth(felt, setup.equipment.sensors.declination, float(setup.world.thermistor))
+        truth = compass_truth(felt, setup.equipment.sensors.declination, float(setup.world["thermistor"]))
         compass = ports.compass.exchange(ports.to.get(COMPASS, b""), truth, t)
         gnss = ports.gnss.exchange(ports.to.get(GNSS, b""), felt, self._utc(t), t, on=self.switched.radio)
         heard = self.inject.heard
@@ -214,10 +213,10 @@ class System:
             leak_aft=False,
             leak_loop=self.inject.leak_loop(),
             internal_pressure=r.internal_pressure,
-            hull_temperature=float(world.air_temperature) - 273.15,
+            hull_temperature=float(world["air_temperature"]) - 273.15,
             voltage=r.voltage,
             current=r.current,
-            battery_temperature=float(world.air_temperature) - 273.15,
+            battery_temperature=float(world["air_temperature"]) - 273.15,
         )
 
     def _drives(self, outputs: DriveOutputs) -> Drives:

@@ -34,7 +34,11 @@ class Disk:
         """The disk as it is found: synced bytes whole; of the others all, or a beginning and zeros."""
         found = {}
         for name, content in self.files.items():
-            kept = len(content.data) if keeps_unsynced else draw.randint(content.synced, len(content.data))
+            kept = (
+                len(content.data)
+                if keeps_unsynced
+                else draw.choice([content.synced, draw.randint(content.synced, len(content.data))])
+            )
             zeros = 0 if keeps_unsynced else draw.choice([0, 0, len(content.data) - kept])
             found[name] = bytes(content.data[:kept]) + bytes(zeros)
         return Disk(found)

@@ -94,3 +94,15 @@ class MagneticVehicle:
 def away(found: float, true: float) -> float:
     """Size of the difference of two angles [deg]."""
     return abs(degrees(asin(sin(found - true)))) if cos(found - true) > 0 else 180.0
+
+
+def samples_text(vehicle: MagneticVehicle, noise: np.random.Generator) -> str:
+    """Samples of a vehicle turned about on land, then of the pump, the valve with it, and the pitch drive."""
+    lines = ["acceleration_x_g,acceleration_y_g,acceleration_z_g,field_x_ut,field_y_ut,field_z_ut,running"]
+    acceleration, field, _ = vehicle.turned_about(200, noise)
+    rows = [(tuple(a), tuple(b), "") for a, b in zip(acceleration, field, strict=True)]
+    for run in ("pump", "pump+valve", "pitch_drive"):
+        bits = sum(ACTUATORS[name] for name in run.split("+"))
+        for now, word in [(0, "")] * 10 + [(bits, run)] * 10 + [(0, "")] * 10:
+            rows.append((*vehicle.felt(0.0, -0.2, 1.0, now, noise), word))
+    return "\n".join([*lines, *(",".join([*(f"{x:.6f}" for x in (*a, *b)), word]) for a, b, word in rows)]) + "\n"

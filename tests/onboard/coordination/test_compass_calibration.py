@@ -25,7 +25,15 @@ from stommel.onboard.coordination.compass.heading import attitude_of, heading_of
 from stommel.onboard.coordination.compass.learning import LearningError, learn
 from stommel.simulation.plant.sensing import compass
 from stommel.simulation.plant.world import new_world
-from tests.onboard.coordination.magnetic_vehicle import ALL, HARD_IRON, SOFT_IRON, STRENGTH, MagneticVehicle, away
+from tests.onboard.coordination.magnetic_vehicle import (
+    ALL,
+    HARD_IRON,
+    SOFT_IRON,
+    STRENGTH,
+    MagneticVehicle,
+    away,
+    samples_text,
+)
 from tests.support.command import Command
 
 QUIET = MagneticVehicle(60.0, tilt_noise=0.0, field_noise=0.0)
@@ -204,6 +212,8 @@ def test_what_cannot_be_learnt_is_named() -> None:
         learn(field[:40], running[:40])
     with pytest.raises(LearningError, match="pump, samples 3 to 22: 2 samples before it runs"):
         learn(field[18:], running[18:])
+    with pytest.raises(LearningError, match=r"pump: its field is uncertain by 1\.\d uT"):
+        learn(field + 7.0 * noise.standard_normal(field.shape) * (np.array(running) > 0)[:, None], running)
     field[40:] += 3.0
     with pytest.raises(LearningError, match=r"differs by 5.2 uT.*has turned"):
         learn(field, running)
@@ -211,17 +221,6 @@ def test_what_cannot_be_learnt_is_named() -> None:
 
 
 # files
-
-
-def samples_text(vehicle: MagneticVehicle, noise: np.random.Generator) -> str:
-    lines = ["acceleration_x_g,acceleration_y_g,acceleration_z_g,field_x_ut,field_y_ut,field_z_ut,running"]
-    acceleration, field, _ = vehicle.turned_about(200, noise)
-    rows = [(tuple(a), tuple(b), "") for a, b in zip(acceleration, field, strict=True)]
-    for run in ("pump", "pump+valve", "pitch_drive"):
-        bits = sum(ACTUATORS[name] for name in run.split("+"))
-        for now, word in [(0, "")] * 10 + [(bits, run)] * 10 + [(0, "")] * 10:
-            rows.append((*vehicle.felt(0.0, -0.2, 1.0, now, noise), word))
-    return "\n".join([*lines, *(",".join([*(f"{x:.6f}" for x in (*a, *b)), word]) for a, b, word in rows)]) + "\n"
 
 
 def test_command_writes_what_the_vehicle_reads(stommel: Command, tmp_path: Path) -> None:
@@ -299,14 +298,9 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
         ('kind = "compass calibration"', 'kind = "compass"', "kind = 'compass': must be 'compass calibration'"),
         ("hard_iron_ut = [", "hard_iron_ut = [1e9, ", "hard_iron_ut"),
         ("hard_iron_ut = [", "hard_iron = [", "hard_iron: unknown key"),
-        ("strength_ut = ", "strength_ut = 1", "strength_ut = 1"),
-        (
-            "correction = [",
-            "correction = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]\nx = [",
-            "determinant is 0",
-        ),
+        ("strength_ut = ", "strength_ut = 1e4 #", "strength_ut = 10000.0: must be between 5 and 200"),
         ("pump = [", "pumps = [", "pumps: unknown key in [actuator_ut]; did you mean pump"),
-        ("believed_ut = [", "believed_ut = [99.0, 1.0]\ny = [", "first number must be less"),
+        ("believed_ut = [", "believed_ut = [99.0, 1.0] #", "first number must be less"),
     ],
 )
 def test_damaged_calibrations_are_refused(tmp_path: Path, old: str, new: str, words: str) -> None:
@@ -317,6 +311,16 @@ def test_damaged_calibrations_are_refused(tmp_path: Path, old: str, new: str, wo
     with pytest.raises(FileError, match=r"compass\.toml: ") as refused:
         read_calibration(path)
     assert words in str(refused.value)
+
+
+def test_a_correction_that_flattens_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "compass.toml"
+    lines = 'format = 1\nkind = "compass calibration"\nhard_iron_ut = [1.0, 2.0, 3.0]\n'
+    path.write_text(lines)
+    assert read_calibration(path).hard_iron == (1.0, 2.0, 3.0)
+    path.write_text(lines + "correction = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]\n")
+    with pytest.raises(FileError, match=r"correction: its determinant is 0; must be between 0.05 and 20"):
+        read_calibration(path)
 
 
 def test_no_calibration_changes_nothing() -> None:

@@ -152,10 +152,10 @@ def test_a_reading_costs_little() -> None:
     compass, best = CompassCompensation(calibrated(vehicle, 0)._replace(pump=None)), inf
     told = vehicle.felt(0.1, -0.5, 1.0, PUMP, noise)
     for _ in range(5):
-        began = time.perf_counter()
+        began = time.process_time()
         for t in range(1000):
             compass.update(float(t), *told, PUMP * (t % 40 < 10) | STEERING * (t % 3 == 0))
-        best = min(best, (time.perf_counter() - began) / 1000)
+        best = min(best, (time.process_time() - began) / 1000)
     assert best < 100e-6
 
 

@@ -1,4 +1,4 @@
-"""Missions of a vehicle: whole or not at all. Oracle: the missions that were sent, the limits as the vehicle has them."""
+"""Missions of a vehicle: whole or not at all. Oracle: the missions that were sent, and the limits of a vehicle."""
 
 import hashlib
 import random

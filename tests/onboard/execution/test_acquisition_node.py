@@ -143,7 +143,7 @@ def test_a_sensor_without_a_reading_is_told(wrong, message, expected, bit):
     ({"current": 9.0}, "Battery", "voltage_proven", 8), ({"voltage": nan}, "Battery", "voltage_proven", 8),
 ])  # fmt: skip
 def test_each_safety_input_is_proven_at_the_start_or_by_a_self_test_and_else_not(wrong, message, proof, bit):
-    bench = Bench()
+    bench = Bench(settling=3.0)
     bench.readings = WELL._replace(**wrong)
     bench.run(5)
     assert bench.messages(message)[-1][proof] == 0

@@ -54,6 +54,20 @@ def test_the_valve_never_undoes_what_the_pump_did(interval):
         assert len({share > 0.0 for share in ways}) == 1
 
 
+@ALL
+def test_a_small_movement_at_depth_does_not_reckon_with_the_speed_at_the_surface(interval):
+    bench = MotionBench(interval)
+    bench.go_to(-2e-5)
+    bench.run(15)  # the valve gives 3 ml/s
+    bench.plant.pressure = 2e6
+    bench.go_to(-2.2e-5)
+    least = 0.0
+    for _ in range(round(5 / interval)):
+        bench.step()  # and now 48 ml/s
+        least = min(least, bench.plant.V_b)
+    assert least == pytest.approx(-2.2e-5, abs=1e-7)
+
+
 def test_mass_moves_from_the_tolerance_on_and_stops_within_a_quarter_of_it():
     bench = MotionBench(mass_tolerance=2 * MM)
     bench.go_to(moving_mass=0.2519)

@@ -152,6 +152,26 @@ def test_an_abort_is_latched_until_it_is_cleared(release):
     assert bench.plant.V_b == pytest.approx(-1e-4, abs=1e-7)
 
 
+def test_the_first_sync_after_a_silence_is_heard_whatever_its_alive_counter():
+    bench = MotionBench()
+    bench.run(3)  # alive counters 0, 1, 2
+    bench.sync = False
+    bench.run(10)
+    bench.sync, bench.coordinator = True, Encoder()
+    for _ in range(2):
+        bench.coordinator.frame("Sync", vehicle_time=0.0)
+    bench.step()  # alive counter 2, as that of the last one
+    assert bench.node.link.modes.mode is Mode.OPERATIONAL
+
+
+def test_a_strangers_sync_keeps_nobody_from_blowing():
+    bench = MotionBench()
+    bench.run(3)
+    stranger(bench)
+    bench.run(80)
+    assert bench.outputs[-1].pump == 1.0
+
+
 def test_an_abort_outlasts_a_quiet_bus():
     bench = MotionBench()
     bench.say("Abort", reason=3, drop_weight=0)
@@ -248,6 +268,19 @@ def test_a_coordinator_of_another_database_is_refused_but_may_abort():
     assert bench.outputs[-1].pump == 1.0
 
 
+def test_a_fault_cleared_under_another_database_does_not_make_its_set_points_good():
+    bench = MotionBench()
+    bench.run(2)
+    bench.say("Abort", reason=2, drop_weight=0)
+    bench.run(2)
+    stranger(bench)
+    bench.command("ClearFault")
+    bench.go_to(-2e-4, 0.5, 0.5)
+    bench.outputs.clear()
+    bench.run(4)
+    assert all(out.valve == 0.0 and out.steering == 0.0 and out.mass <= 0.0 for out in bench.outputs)
+
+
 def test_a_command_is_done_once_and_its_retry_is_answered():
     bench = MotionBench()
     bench.run(2)
@@ -297,7 +330,8 @@ def test_a_parameter_holds_at_once_is_kept_within_its_limits_and_outlasts_a_powe
     assert write(bench, 16, 30.0) == 0
     assert bench.node.settings.blow_after == 30.0
     assert write(bench, 16, 1e9) == 2  # OutOfRange
-    assert write(bench, 7, 0.02) == 0  # a limit that no 32-bit number is
+    assert write(bench, 7, 0.01) == 0  # ten times the vehicle's own, a limit that no 32-bit number is
+    assert write(bench, 7, 0.011) == 2
     assert write(bench, 99, 1.0) == 1  # NoSuchParameter
     bench.say("MotionParameterRequest", operation=6, parameter=0, value=0)
     bench.run(1)
@@ -356,8 +390,8 @@ def test_a_clock_that_jumps_back_neither_blows_nor_holds_up_the_last_reaction():
     start = coordinator.frame("CoordinatorCommand", target=2, command=1, sequence=1, argument=0)
     node.step(1000.0, [], NO_READINGS, 1.0)
     node.step(1000.0, [coordinator.frame("Sync", vehicle_time=1.0), start], NO_READINGS, 1.0)
-    for k in range(5):
-        node.step(10.0 + k, [coordinator.frame("Sync", vehicle_time=2.0 + k)], NO_READINGS, 1.0)
+    for k in range(4):
+        node.step(10.0 + k, [], NO_READINGS, 1.0)
     assert node.link.modes.mode is Mode.OPERATIONAL
     for k in range(70):
         _, out = node.step(20.0 + k, [], NO_READINGS, 1.0)

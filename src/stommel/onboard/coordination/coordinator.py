@@ -1,7 +1,6 @@
 """The coordinator: frames and bytes in, frames and bytes out, once a second. No port, no clock, no thread."""
 
 from collections.abc import Iterable, Mapping
-from typing import NamedTuple
 
 from stommel.control.commands import Commands
 from stommel.control.orders import Orders
@@ -16,12 +15,16 @@ from stommel.onboard.coordination.deciding import Decide, Pilot
 from stommel.onboard.coordination.executive import Executive, ExecutiveState, State
 from stommel.onboard.coordination.executive_commands import commands as commands_of
 from stommel.onboard.coordination.logbook.logbook import Logbook
+from stommel.onboard.coordination.navigation import NavigationEstimate, Navigator
 from stommel.onboard.coordination.nodes_control import NodesControl
 from stommel.onboard.coordination.perception import Perception
+from stommel.onboard.coordination.power import Sleeper, wakes
 from stommel.onboard.coordination.recording import Recorder
-from stommel.onboard.coordination.safety import SafetyMonitor, SafetyState
+from stommel.onboard.coordination.safety import SafetyMonitor, standing_alarms
 from stommel.onboard.coordination.settings import CoordinatorSettings
-from stommel.onboard.coordination.situation import NO_REQUESTS, OperatorRequests, Situation
+from stommel.onboard.coordination.situation import NO_REQUESTS, OperatorRequests
+from stommel.onboard.coordination.stores.continuity import Continuity, ContinuityStore
+from stommel.onboard.coordination.view import View
 from stommel.onboard.instruments.gnss.driver import GnssDriver, GnssState
 from stommel.onboard.instruments.gnss.fix import Fix
 from stommel.onboard.instruments.radio import Radio
@@ -37,16 +40,6 @@ CTD_PATIENCE = 10.0
 """Time beyond two intervals without a sample, after which the payload is silent [s]."""
 
 
-class View(NamedTuple):
-    """What the coordinator made of the last second, for logs, live views and tests."""
-
-    t: float
-    situation: Situation
-    safety: SafetyState
-    executive: ExecutiveState
-    commands: Commands
-
-
 class Coordinator:
     """The vehicle's coordination software.
 
@@ -58,12 +51,8 @@ class Coordinator:
         Time at which it is switched on [s].
     logbook
         Where records go; None keeps none.
-    restarts
-        How often it has started before.
-    standing
-        Alarms that stood before a restart (`stommel.onboard.coordination.safety.standing_alarms`).
-    started
-        Whether the operator had started the mission before a restart.
+    store
+        What outlived a restart, and where to keep what must outlive the next; None: it has never started before.
     decision
         In place of plain Python's `stommel.control.decision.decide`.
     """
@@ -74,16 +63,15 @@ class Coordinator:
         t: float,
         *,
         logbook: Logbook | None = None,
-        restarts: int = 0,
-        standing: tuple[str, ...] = (),
-        started: bool = False,
+        store: ContinuityStore | None = None,
         decision: Decide | None = None,
     ) -> None:
+        before = Continuity() if store is None else store.kept
         self.settings = settings
         self.perception = Perception(t)
         self.pilot = Pilot(decision)
-        self.safety = SafetyMonitor(settings.safety, settings.has_drop_weight, standing)
-        self.executive = Executive(started=started)
+        self.safety = SafetyMonitor(settings.safety, settings.has_drop_weight, before.standing)
+        self.executive = Executive(started=before.started)
         self.compass, self.gnss, self.radio = CompassDriver(settings.compass), GnssDriver(settings.gnss), Radio()
         self.recorder = Recorder(logbook, settings.report_every)
         self.view: View | None = None
@@ -91,19 +79,29 @@ class Coordinator:
         """Time at which the mission's time is over [s]."""
         self._compensation = CompassCompensation(settings.calibration, settings.masking, settings.declination)
         self._encoder = Encoder()
-        self._heartbeat = HeartbeatSender(COORDINATOR, self._encoder, restarts, settings.kind)
-        self._nodes = NodesControl.of(self._encoder, restarts)
+        self._heartbeat = HeartbeatSender(COORDINATOR, self._encoder, before.starts, settings.kind)
+        self._nodes = NodesControl.of(self._encoder, before.starts)
+        self._navigator: Navigator | None = None
+        self._sleeper = Sleeper(settings.schedule)
+        self._store, self._before, self._mission = store, before, before.mission
         self._requests = NO_REQUESTS
+        self._fix_sigma: float | None = None
+        self._was_surfaced = True
         self._radio_since = self._sampling_since = float("inf")
 
     def request(self, requests: OperatorRequests) -> None:
         """Ask for something, at the next decision."""
         self._requests = requests
 
-    def adopt(self, orders: Orders, expires: float = float("inf")) -> None:
-        """Take the orders of a mission that has been validated, and fly them until a time [s]."""
-        self.pilot.adopt(orders)
-        self.expires = expires
+    def adopt(self, orders: Orders, expires: float = float("inf"), mission: int = 0) -> None:
+        """Take the orders of a mission that has been validated, and fly them until a time [s].
+
+        The mission that was flown before a restart, by its number, is taken up where it was.
+        """
+        before = self._before
+        taken_up = mission == before.mission and before.starts > 0
+        self.pilot.adopt(orders, *((before.waypoint, before.energy_used) if taken_up else ()))
+        self.expires, self._mission = expires, mission
 
     def step(
         self, t: float, frames: Iterable[Frame], bytes_in: Mapping[str, bytes]
@@ -113,7 +111,23 @@ class Coordinator:
         for received in seen.take(frames, t):
             self._nodes.take(received, t)
             self.recorder.received(received, t)
+            self._sleeper.hear(wakes(received))
         self._hear(t, bytes_in)
+        aborts = self.view is not None and self.view.executive.state is State.ABORT
+        if self.view is not None and not self._sleeper.due(t, self.pilot.phase, aborts) and not self._is_asked:
+            return self._keep_alive(t), self._ask(t, self.view.commands)
+        view = self._decide(t)
+        self._note_switches(view.commands, t)
+        self._keep(view)
+        return self._say(t, view.executive, view.commands), self._ask(t, view.commands)
+
+    @property
+    def _is_asked(self) -> bool:
+        return self._requests is not NO_REQUESTS
+
+    def _decide(self, t: float) -> View:
+        """Look at the situation, decide, and write it down."""
+        seen, pilot = self.perception, self.pilot
         readings = seen.readings()
         situation = situation_of(seen, self._inside(t), readings, t)
         requests, self._requests = self._requests, NO_REQUESTS
@@ -123,11 +137,34 @@ class Coordinator:
             self._nodes.clear_faults(t)
         safety = self.safety.update(situation, clear=requests.clear)
         state = self.executive.update(situation, safety, requests)
-        commands = commands_of(state, self.pilot.step(readings, state, t), self.settings.actuators)
-        self._note_switches(commands, t)
-        self.view = View(t, situation, safety, state, commands)
-        self.recorder.decided(self.view, self.pilot, readings, self._nodes.outcomes(), seen)
-        return self._say(t, state, commands), self._ask(t, commands)
+        control = pilot.step(readings, state, t, self._sleeper.elapsed)
+        commands = commands_of(state, control, self.settings.actuators)
+        self.view = view = View(t, situation, safety, state, commands, self._navigate(t))
+        self.recorder.decided(view, pilot, readings, self._nodes.outcomes(), seen)
+        return view
+
+    def _navigate(self, t: float) -> NavigationEstimate | None:
+        """Follow how far the position may be wrong."""
+        memory = self.pilot.memory
+        if memory is None:
+            return None
+        if self._navigator is None:
+            self._navigator = Navigator(self.settings.navigation)
+        sigma, self._fix_sigma = self._fix_sigma, None
+        return self._navigator.update(memory, t, sigma)
+
+    def _keep(self, view: View) -> None:
+        """Keep what must outlive a restart: at once what an operator or safety did, the way once a surfacing."""
+        if self._store is None:
+            return
+        last, memory, executive = self._store.kept, self.pilot.memory, view.executive
+        standing = standing_alarms(view.safety) if view.safety.active else ()
+        waypoint, used = last.waypoint, last.energy_used
+        if memory is not None and (self._mission != last.mission or executive.surfaced != self._was_surfaced):
+            waypoint, used = int(memory["waypoint"]), max(0.0, float(memory["energy_used"]))
+        self._was_surfaced = executive.surfaced
+        kept = Continuity(self._before.starts + 1, executive.started, standing, self._mission, waypoint, used)
+        self._store.keep(kept)
 
     def _hear(self, t: float, bytes_in: Mapping[str, bytes]) -> None:
         """Let the drivers make readings of the ports' bytes."""
@@ -147,6 +184,7 @@ class Coordinator:
             depth = seen.value("Depth", "depth", float("nan"))
             for outcome in self.gnss.take(bytes_in[GNSS], t, depth):
                 if isinstance(outcome, Fix):
+                    self._fix_sigma = outcome.sigma
                     seen.take_fix(outcome.t - outcome.age, outcome.latitude, outcome.longitude)
         self.radio.take(bytes_in.get(RADIO, b""), t)
 
@@ -178,6 +216,10 @@ class Coordinator:
         self._radio_since = min(self._radio_since, t) if commands.radio else float("inf")
         self._sampling_since = min(self._sampling_since, t) if commands.sampling else float("inf")
 
+    def _keep_alive(self, t: float) -> list[Frame]:
+        """Frames of a controller that sleeps on: the nodes hold what they were told."""
+        return [self._encoder.frame("Sync", vehicle_time=t), *self._heartbeat.poll(t, NodeState.Operational)]
+
     def _say(self, t: float, state: ExecutiveState, commands: Commands) -> list[Frame]:
         """Frames to the nodes, the most urgent first."""
         frame = self._encoder.frame
@@ -205,8 +247,9 @@ class Coordinator:
     def _ask(self, t: float, commands: Commands) -> dict[str, bytes]:
         """Bytes to the instruments; those without power are not asked."""
         out = {COMPASS: self.compass.poll(t)}
-        if commands.radio:
+        if commands.radio and self.settings.schedule.gps[self.pilot.phase]:
             out[GNSS] = self.gnss.poll(t)
+        if commands.radio:
             out[RADIO] = self.radio.poll(t)
         return out
 

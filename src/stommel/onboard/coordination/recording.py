@@ -1,21 +1,23 @@
 """What the coordinator writes into the log: each decision whole, the rest now and then, and whatever happens."""
 
+import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
+import numpy as np
+
+from stommel.control.memory import MEMORY
 from stommel.control.readings import Readings
 from stommel.messages.codec import Received
 from stommel.messages.commanding import Outcome
 from stommel.onboard.coordination.deciding import Pilot
 from stommel.onboard.coordination.logbook import records
 from stommel.onboard.coordination.logbook.logbook import Logbook
+from stommel.onboard.coordination.navigation import NavigationEstimate
 from stommel.onboard.coordination.perception import Perception
-
-if TYPE_CHECKING:
-    from stommel.onboard.coordination.coordinator import View
+from stommel.onboard.coordination.view import View
 
 _MOST_DIVES = 0xFFFFFFFF
-_UNKNOWN = float("nan")
+_MEMORY = MEMORY.names or ()
 
 
 class Recorder:
@@ -58,7 +60,7 @@ class Recorder:
             self._log.event(t, "node:emergency", f"{message.name} {int(v['code'])} {state}, detail {int(v['detail'])}")
 
     def decided(
-        self, view: "View", pilot: Pilot, readings: Readings, outcomes: Iterable[Outcome], seen: Perception
+        self, view: View, pilot: Pilot, readings: Readings, outcomes: Iterable[Outcome], seen: Perception
     ) -> None:
         """Write down a decision and what led to it; changes of state and alarms in words."""
         log, t = self._log, view.t
@@ -68,7 +70,9 @@ class Recorder:
         log.append(records.COMMANDS, (t, *view.commands))
         self._write_drives(log, seen, t)
         if pilot.memory is not None:
-            self._write_memory(log, pilot, t)
+            self._write_memory(log, pilot.memory, t)
+        if view.navigation is not None:
+            self._write_navigation(log, view.navigation)
         if view.executive.words != self._words:
             self._words = view.executive.words
             log.event(t, "executive", f"{self._words}: {view.executive.because}")
@@ -100,21 +104,21 @@ class Recorder:
         )  # fmt: skip
 
     @staticmethod
-    def _write_memory(log: Logbook, pilot: Pilot, t: float) -> None:
-        m = pilot.memory
-        assert m is not None
-        dives_here = int(min(m.dives_here, _MOST_DIVES))
+    def _write_memory(log: Logbook, memory: np.record, t: float) -> None:
+        m = dict(zip(_MEMORY, memory.item(), strict=True))
+        dives_here = int(min(m["dives_here"], _MOST_DIVES))
         log.append(
             records.DECISION,
             (
-                t, int(m.phase), float(m.since), float(m.submerged_since), int(m.dives), dives_here, int(m.event),
-                int(m.alarm), int(m.waypoint), float(m.heading_wanted),
+                t, int(m["phase"]), m["since"], m["submerged_since"], int(m["dives"]), dives_here, int(m["event"]),
+                m["alarm"], m["waypoint"], m["heading_wanted"],
             ),
         )  # fmt: skip
-        log.append(
-            records.NAVIGATION,
-            (t, float(m.latitude), float(m.longitude), _UNKNOWN, float(m.current_north), float(m.current_east)),
-        )
+
+    @staticmethod
+    def _write_navigation(log: Logbook, at: NavigationEstimate) -> None:
+        sigma = math.hypot(at.sigma_north, at.sigma_east)
+        log.append(records.NAVIGATION, (at.t, at.latitude, at.longitude, sigma, at.current_north, at.current_east))
 
     @staticmethod
     def _write_report(log: Logbook, pilot: Pilot, seen: Perception, t: float) -> None:
@@ -126,7 +130,7 @@ class Recorder:
                 says("Hull", "leak_aft"), says("Hull", "leak_measured"),
             ),
         )  # fmt: skip
-        used = 0.0 if pilot.memory is None else float(pilot.memory.energy_used)
+        used = 0.0 if pilot.memory is None else float(pilot.memory["energy_used"])
         log.append(
             records.BATTERY,
             (t, value("Battery", "voltage"), value("Battery", "current"), value("Battery", "temperature"), used),

@@ -6,6 +6,8 @@ from stommel.messages.nodes import NodeKind
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.compass.compensation import Masking
 from stommel.onboard.coordination.limits import ActuatorLimits, SafetyLimits
+from stommel.onboard.coordination.navigation import NavigationErrors
+from stommel.onboard.coordination.power import PowerSchedule
 from stommel.onboard.instruments.gnss.driver import GnssSettings
 from stommel.onboard.instruments.tcm.driver import CompassSettings
 
@@ -26,6 +28,8 @@ class CoordinatorSettings:
     """Between two samples of the CTD."""
     compass: CompassSettings = field(default_factory=lambda: CompassSettings(polled=False))
     gnss: GnssSettings = field(default_factory=GnssSettings)
+    navigation: NavigationErrors = field(default_factory=NavigationErrors)
+    schedule: PowerSchedule = field(default_factory=PowerSchedule)
     kind: NodeKind = field(default_factory=lambda: NodeKind(1, (0, 1, 0)))
     """Of this computer."""
     report_every: float = 60.0

@@ -27,7 +27,7 @@ class AcquisitionSettings(NodeSettings):
     """Greatest voltage of the battery."""
     current_at_rest: float = setting(3.0, 0.01, 30.0, "A", 6)
     """Greatest current, in or out, while nothing moves."""
-    settling: float = setting(3.0, 0.0, 60.0, "s", 7)
+    settling: float = setting(60.0, 0.0, 600.0, "s", 7)
     """Time after the start within which the sensors must pass their checks."""
     quiet_after: float = setting(5.0, 1.0, 60.0, "s", 8)
     """Time without Sync after which the bus is called quiet."""

@@ -30,25 +30,28 @@ class MotionSettings(NodeSettings):
     has_drop_weight: bool = False
     """Whether the vehicle has a drop weight and its release."""
 
-    pump_flow: float = setting(8.3e-6, 5e-7, 1e-4, "m3/s", 1)
+    pump_flow: float = setting(8.3e-6, 1e-9, 1e-2, "m3/s", 1, 5.0)
     """Of the pump, until the node has seen it."""
-    valve_flow: float = setting(1e-5, 5e-7, 2e-4, "m3/s", 2)
+    valve_flow: float = setting(1e-5, 1e-9, 1e-2, "m3/s", 2, 5.0)
     """Of the open valve; a twentieth of it is the least that is no fault."""
-    valve_fastest: float = setting(5e-5, 1e-6, 1e-3, "m3/s", 3)
+    valve_fastest: float = setting(5e-5, 1e-9, 1e-1, "m3/s", 3, 5.0)
     """Of the open valve at the greatest depth: what a movement of unknown speed reckons with."""
-    mass_speed: float = setting(5.25e-3, 5e-4, 0.05, "m/s", 4)
+    mass_speed: float = setting(5.25e-3, 1e-6, 1.0, "m/s", 4, 5.0)
     """Of the moving mass, until the node has seen it."""
-    steering_speed: float = setting(0.349, 0.01, 3.5, "rad/s", 5)
+    steering_speed: float = setting(0.349, 1e-4, 20.0, "rad/s", 5, 5.0)
     """Of the steering, until the node has seen it."""
-    oil_tolerance: float = setting(1e-7, 1e-8, 5e-6, "m3", 6)
+    oil_tolerance: float = setting(1e-7, 1e-10, 1e-3, "m3", 6, 10.0)
     """Difference of ballast volume from which the engine works."""
-    mass_tolerance: float = setting(1e-3, 1e-5, 0.02, "m", 7)
+    mass_tolerance: float = setting(1e-3, 1e-9, 1.0, "m", 7, 10.0)
     """Distance from which the mass moves; it then stops within a quarter of it."""
-    steering_tolerance: float = setting(1.75e-3, 1e-4, 0.2, "rad", 8)
+    steering_tolerance: float = setting(1.75e-3, 1e-6, 1.0, "rad", 8, 10.0)
     """Angle from which the steering moves."""
-    pump_current_limit: float = setting(8.0, 2.0, 20.0, "A", 9)
-    mass_current_limit: float = setting(4.0, 1.0, 20.0, "A", 10)
-    steering_current_limit: float = setting(4.0, 1.0, 20.0, "A", 11)
+    pump_current_limit: float = setting(8.0, 0.01, 20.0, "A", 9, 2.0)
+    """Of the pump's motor; above it the motor is stopped."""
+    mass_current_limit: float = setting(4.0, 0.01, 20.0, "A", 10, 2.0)
+    """Of the pitch drive's motor."""
+    steering_current_limit: float = setting(4.0, 0.01, 20.0, "A", 11, 2.0)
+    """Of the steering motor."""
     stuck_after: float = setting(5.0, 1.0, 30.0, "s", 12)
     """Running time of a drive within which it must be seen to follow."""
     pause: float = setting(5.0, 0.1, 60.0, "s", 13)

@@ -2,7 +2,8 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from typing import Any, TypeVar, cast
+from math import inf
+from typing import Any, NamedTuple, TypeVar, cast
 
 from stommel.errors import StommelError
 from stommel.messages.parameters import Parameter, ParameterServer, ParameterType
@@ -12,13 +13,23 @@ class SettingsError(StommelError):
     """A setting of a node is beyond its limits."""
 
 
-class _Limits(tuple[float, float, str, int | None]):
-    __slots__ = ()
+class _Limits(NamedTuple):
+    low: float
+    high: float
+    unit: str
+    number: int | None
+    factor: float
 
 
-def setting(default: float, low: float, high: float, unit: str = "", number: int | None = None) -> Any:
-    """Return a field of a settings class: its limits, unit, and number as a parameter where it has one."""
-    return field(default=default, metadata={"limits": _Limits((low, high, unit, number))})
+def setting(
+    default: float, low: float, high: float, unit: str = "", number: int | None = None, factor: float = inf
+) -> Any:
+    """Return a field of a settings class: its limits, unit, and number as a parameter where it has one.
+
+    Over the bus a setting changes by no more than a factor from what the vehicle was given: a mistyped speed must not
+    keep it down.
+    """
+    return field(default=default, metadata={"limits": _Limits(low, high, unit, number, factor)})
 
 
 @dataclass(frozen=True)
@@ -32,7 +43,7 @@ class NodeSettings:
     """
 
     def __post_init__(self) -> None:
-        for each, (low, high, unit, _) in _limits(self).items():
+        for each, (low, high, unit, _, _) in _limits(self).items():
             value = getattr(self, each)
             if not low <= value <= high:  # not a number, too
                 raise SettingsError(f"{type(self).__name__}.{each} = {value}: must be {_span(low, high, unit)}")
@@ -72,9 +83,11 @@ def _kind(value: float) -> ParameterType:
 def parameters_of(settings: NodeSettings) -> list[Parameter]:
     """What can be set of a node over the bus; the settings given are the defaults."""
     found = []
-    for name, (low, high, unit, number) in _limits(settings).items():
+    for name, (low, high, unit, number, factor) in _limits(settings).items():
         if number is not None:
             value = getattr(settings, name)
+            if factor < inf:
+                low, high = max(low, value / factor), min(high, value * factor)  # noqa: PLW2901 - the narrower ones
             found.append(Parameter(number, name, _kind(value), value, low, high, unit))
     return found
 
@@ -82,7 +95,7 @@ def parameters_of(settings: NodeSettings) -> list[Parameter]:
 def settings_with(settings: Settings, server: ParameterServer) -> Settings:
     """Return settings with a parameter server's values."""
     values = {}
-    for name, (low, high, _, number) in _limits(settings).items():
+    for name, (low, high, _, number, _) in _limits(settings).items():
         if number is not None:
             # a limit that 32 bits hold a little too large is the limit
             values[name] = min(max(server[name], low), high)

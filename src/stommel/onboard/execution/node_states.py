@@ -30,7 +30,7 @@ class Event(Enum):
     RESTART = "command Restart"
     SYNC = "a Sync is heard"
     SILENCE = "no Sync for `quiet_after`"
-    LONG_SILENCE = "no Sync for `blow_after`"
+    LONG_SILENCE = "no Sync for `blow_after` or `rest_after`"
     ABORT = "an Abort, or command Blow"
     STRANGER = "the coordinator has another CAN database"
 

@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+from stommel.onboard.instruments.settings import require_positive
+
 _BITS_A_BYTE = 10
 """Of a serial port with one start and one stop bit."""
 
@@ -61,8 +63,8 @@ class Radio:
     """The vehicle's side. What is above it learns from `room` how much it may write; more is refused and counted."""
 
     def __init__(self, bit_rate: float = 115_200.0, buffer: int = 8192) -> None:
-        if not (bit_rate > 0.0 and buffer > 0):
-            raise ValueError(f"radio: bit rate {bit_rate:g} and buffer {buffer} must be more than 0")
+        require_positive("radio.bit_rate", bit_rate)
+        require_positive("radio.buffer", buffer)
         self._out = _Pipe(bit_rate, buffer)
         self._buffer = buffer
         self._received = 0

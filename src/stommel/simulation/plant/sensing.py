@@ -45,6 +45,13 @@ def disturbing_field(sensors: Sensors, plant_state: np.record) -> Vector:
 
 
 @inlined
+def felt_field(sensors: Sensors, plant_state: np.record, Q: Quaternion) -> Vector:
+    """Magnetic field at the compass in the body frame, in parts of the Earth's: with iron, and motors that run."""
+    b = matrix_times(sensors.soft_iron, to_body(Q, sensors.field))
+    return add(add(b, sensors.hard_iron), disturbing_field(sensors, plant_state))
+
+
+@inlined
 def compass(sensors: Sensors, plant_state: np.record, Q: Quaternion, noise: np.random.Generator) -> Felt:
     """Direction down by the accelerometers and the tilt-compensated magnetic heading, with iron, motors and noise.
 
@@ -57,8 +64,7 @@ def compass(sensors: Sensors, plant_state: np.record, Q: Quaternion, noise: np.r
         zeta[2] + sigma * noise.standard_normal(),
     )
     down = scale(1.0 / math.sqrt(dot(felt, felt)), felt)
-    b = matrix_times(sensors.soft_iron, to_body(Q, sensors.field))
-    b = add(add(b, sensors.hard_iron), disturbing_field(sensors, plant_state))
+    b = felt_field(sensors, plant_state, Q)
     east = cross(down, b)
     north = cross(east, down)
     psi = math.atan2(east[0], north[0]) + sensors.declination + sensors.heading_noise * noise.standard_normal()

@@ -5,8 +5,10 @@ from typing import NamedTuple
 
 from stommel.messages.database import COORDINATOR, MOTION
 from stommel.onboard.coordination.executive import State
+from stommel.onboard.coordination.logbook.file_names import log_name
 from stommel.onboard.coordination.logbook.reader import read_log
-from stommel.onboard.execution.motion_node import BLOWING
+from stommel.onboard.execution.motion_node import BLOWING, MotionNode
+from stommel.onboard.execution.node_states import Mode
 from stommel.simulation.mission_loop import LOST, NOT_FINITE
 from stommel.sitl.faults.disk import MemoryDisk
 from stommel.sitl.system import System
@@ -31,10 +33,16 @@ class Verdict(NamedTuple):
     """How it ended, in words."""
 
 
+def mode_of(system: System) -> Mode:
+    """Mode of the motion node, which flies in our process."""
+    assert isinstance(system.motion, MotionNode)
+    return system.motion.link.modes.mode
+
+
 def is_aborting(system: System) -> bool:
     """Whether coordinator or motion node bring the vehicle up."""
     view, runs = system.coordinator.view, system.inject.runs
-    if runs(MOTION) and system.motion.link.modes.mode in BLOWING:
+    if runs(MOTION) and mode_of(system) in BLOWING:
         return True
     return runs(COORDINATOR) and view is not None and view.executive.state in (State.ABORT, State.ASCEND)
 
@@ -73,8 +81,8 @@ def ending_of(system: System) -> str:
     if not system.inject.runs(COORDINATOR):
         words = "coordinator without power"
     return (
-        f"{plant.ending}, at {plant.depth:.1f} m; {words}; motion node {system.motion.link.modes.mode.value}; "
-        f"oil {1e6 * plant.oil:.0f} ml, leaked {1e6 * float(plant.setup.world.leaked):.0f} ml, "
+        f"{plant.ending}, at {plant.depth:.1f} m; {words}; motion node {mode_of(system).value}; "
+        f"oil {1e6 * plant.oil:.0f} ml, leaked {1e6 * float(plant.setup.world['leaked']):.0f} ml, "
         f"{1e6 * plant.spare(plant.depth):+.0f} ml to spare"
     )
 
@@ -94,10 +102,14 @@ def wrong_end(system: System) -> str:
 
 
 def wrong_log(disk: MemoryDisk, committed: int) -> str:
-    """What is wrong with the log; empty if each record that was committed reads back. `committed` counts them."""
+    """What is wrong with the log; empty if each record that was committed reads back. `committed` counts them.
+
+    A full disk makes the logbook remove files that matter less; their records count as they were.
+    """
     found = 0
-    for name in sorted(disk.files):
-        content = disk.files[name]
+    for name, content in (*disk.files.items(), *disk.removed):
+        if log_name(name) is None:
+            continue
         read = read_log(bytes(content.data), name)
         if read.offset < content.synced:
             return f"log {name}: {read.verdict}, but {content.synced} bytes were committed"

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from stommel.compilation import plain
 from stommel.control.commands import Commands
 from stommel.control.decision import decide
 from stommel.control.orders import Orders
@@ -13,6 +12,7 @@ from stommel.control.readings import Readings
 from stommel.messages.frames import Frame
 from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook, LogSettings
+from stommel.onboard.coordination.stores.continuity import ContinuityStore
 from stommel.onboard.instruments.gpctd.device import CtdTruth
 from stommel.simulation.plant.hull_air import Hull
 from stommel.sitl.faults import table
@@ -53,6 +53,7 @@ class Injector:
         """Those that act now."""
         self.logbooks: list[Logbook] = []
         """Of each start of the coordinator."""
+        self._stored = MemoryDisk() if disk is None else disk
         self._all = [Acting(fault, seed) for fault in self.faults]
         self._bus = BusFaults()
         self._draw = np.random.default_rng((seed, 0))
@@ -129,7 +130,7 @@ class Injector:
         """Return the decision that sometimes ends in an exception; None where none does."""
         if not any(one.kind == "decision_exception" for one in self._all):
             return None
-        sound = plain(decide)
+        sound = decide
 
         def decision(memory: np.record, orders: Orders, readings: Readings, t: float) -> Commands:
             if any(one.kind == "decision_exception" and one.strikes() for one in self.acting):
@@ -143,6 +144,10 @@ class Injector:
         """Return the logbook of a coordinator that starts, on the disk of the one before."""
         self.logbooks.append(Logbook(disk, LogSettings(), identity, self.clock(t)))
         return self.logbooks[-1]
+
+    def store(self) -> ContinuityStore | None:
+        """Return the store that a coordinator finds as it starts; None where nothing can make it start anew."""
+        return ContinuityStore(self._stored) if self._all else None
 
     # inside
 

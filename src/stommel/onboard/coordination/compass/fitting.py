@@ -30,6 +30,8 @@ WORST_HEADING = 1.0
 """Standard error of a calibrated heading [deg] beyond which the samples are refused."""
 WORST_RESIDUAL = 0.03
 """Root mean square of what is left, as a share of the field, beyond which it was not one field."""
+WORST_RESIDUAL_OF_HARD_IRON = 0.06
+"""The same where soft iron is not fitted, and so is left over."""
 GOOD_GAP, GOOD_TILT, GOOD_HEADING = 45.0, 40.0, 0.4
 """What is warned of beyond [deg]."""
 
@@ -234,9 +236,10 @@ def _described(
         raise CompassFitError("the fit does not settle: the samples are not of one field")
     n = len(b)
     rms = float(np.sqrt((residuals[:n] ** 2).mean()))
-    if rms > WORST_RESIDUAL:
+    worst = WORST_RESIDUAL if len(parameters) == 13 else WORST_RESIDUAL_OF_HARD_IRON
+    if rms > worst:
         raise CompassFitError(
-            f"{100 * rms:.1f} % of the field is left over, at most {100 * WORST_RESIDUAL:.0f} % may be: it was not one "
+            f"{100 * rms:.1f} % of the field is left over, at most {100 * worst:.0f} % may be: it was not one "
             "field; keep away from iron, and let nothing run meanwhile"
         )
     corrected = (b - centre) @ C.T

@@ -18,8 +18,8 @@ LEAST_STEADY = 3
 """Samples in each of the three stretches."""
 MOST_DRIFT = 1.0
 """Difference of the field before and after [uT] beyond which the vehicle has turned."""
-BESIDE = 60
-"""Samples on either side of a run that are compared with it, at most."""
+MOST_ERROR = 1.0
+"""Standard error of a learnt field [uT] beyond which it is refused."""
 
 
 class LearningError(StommelError):
@@ -76,6 +76,12 @@ def learn(field: NDArray[np.float64], running: Sequence[int]) -> dict[str, Learn
     if np.linalg.matrix_rank(normal) < len(names):
         raise LearningError(f"{', '.join(names)}: only ran together; let each run alone once")
     covariance = np.linalg.inv(normal)
+    for name, error in zip(names, np.sqrt(np.diag(covariance)), strict=True):
+        if error > MOST_ERROR:
+            raise LearningError(
+                f"{name}: its field is uncertain by {error:.1f} uT, at most {MOST_ERROR:g} uT may be: keep the vehicle "
+                "still, or let it run longer or more often"
+            )
     found = covariance @ rows.T @ (weights[:, None] * np.array([step.change for step in steps]))
     return {
         name: LearnedField(
@@ -112,7 +118,8 @@ def _step(
     words = f"{words_of(bits)}, samples {start + 1} to {end}"
     if earlier is None or later is None or earlier[0] or later[0]:
         raise LearningError(f"{words}: needs samples before and after it in which nothing runs")
-    before, after = field[max(earlier[1], start - BESIDE) : start], field[end : min(later[2], end + BESIDE)]
+    count = end - start  # as many on either side: farther away the vehicle may have been turned about
+    before, after = field[max(earlier[1], start - count) : start], field[end : min(later[2], end + count)]
     during = field[start:end]
     for name, part in (("before", before), ("while", during), ("after", after)):
         if len(part) < LEAST_STEADY:

@@ -5,11 +5,12 @@ from enum import StrEnum
 
 from stommel.onboard.instruments.framing import Framer
 from stommel.onboard.instruments.gnss.fix import Fix, FixLimits, FixRules, NoFix
-from stommel.onboard.instruments.gnss.nmea import believed, parsed
+from stommel.onboard.instruments.gnss.nmea import READ, believed, kind_of, parsed
 from stommel.onboard.instruments.gnss.novatel.codec import Message, from_ascii, from_binary
 from stommel.onboard.instruments.gnss.positions import NmeaPositions, NovatelPositions
 from stommel.onboard.instruments.gnss.stream import Kind, Piece, look
 from stommel.onboard.instruments.health import Health
+from stommel.onboard.instruments.settings import refuse, require_positive
 
 LOGS: dict[str, tuple[str, ...]] = {
     "novatel_binary": ("TIMEB", "BESTVELB", "BESTPOSB"),
@@ -58,7 +59,9 @@ class GnssSettings:
 
     def __post_init__(self) -> None:
         if self.format not in LOGS:
-            raise ValueError(f"gnss format {self.format}: must be one of {', '.join(LOGS)}")
+            raise refuse("gnss.format", self.format, LOGS)
+        for name in ("interval", "silence", "gap"):
+            require_positive(f"gnss.{name}", getattr(self, name))
 
 
 class GnssDriver:
@@ -132,8 +135,13 @@ class GnssDriver:
             return None
         self._good += 1
         self._believed = t
+        if kind_of(data) not in READ:
+            return None
         message = parsed(data)
-        return None if message is None else self._nmea.take(message, t)
+        if message is None:
+            self._good, self._refused = self._good - 1, self._refused + 1
+            return None
+        return self._nmea.take(message, t)
 
     def _state_at(self, t: float) -> tuple[GnssState, str]:
         quiet = self._set.silence

@@ -1,5 +1,6 @@
 """Sentences of NMEA 0183: read by pynmeagps, and written for the simulated receiver."""
 
+import math
 import re
 from datetime import UTC, date, datetime
 from datetime import time as time_of_day
@@ -10,8 +11,8 @@ from typing import Any
 from pynmeagps import VALNONE, NMEAReader
 from pynmeagps.exceptions import NMEAMessageError, NMEAParseError, NMEATypeError
 
-READ = ("GGA", "RMC", "ZDA", "GSA", "VTG")
-"""Sentences that are read; others pass by."""
+READ = {"GGA": 8, "RMC": 9, "ZDA": 4, "GSA": 16, "VTG": 6}
+"""Sentences that are read, with the fewest fields that say what is asked of them; others pass by."""
 _CHECKED = re.compile(rb"\$[A-Z0-9]{3,}[ -)+-~]*\*[0-9A-Fa-f]{2}\r\n")
 KNOT = 1852.0 / 3600.0
 """[m/s]"""
@@ -27,9 +28,14 @@ def believed(sentence: bytes) -> bool:
     return _CHECKED.fullmatch(sentence) is not None and checksum(sentence[1:-5]) == int(sentence[-4:-2], 16)
 
 
+def kind_of(sentence: bytes) -> str:
+    """Which sentence it is, of any talker."""
+    return sentence[3:6].decode("ascii")
+
+
 def parsed(sentence: bytes) -> Any | None:
     """Return one of the sentences `READ` that is `believed`, with its fields; None where they make no sense."""
-    if sentence[3:6].decode("ascii") not in READ:
+    if sentence.count(b",") < READ[kind_of(sentence)]:
         return None
     try:
         return NMEAReader.parse(sentence, validate=VALNONE)
@@ -39,7 +45,7 @@ def parsed(sentence: bytes) -> Any | None:
 
 def number(value: object) -> float | None:
     """Return a field that is a number; pynmeagps has an empty one as text."""
-    return float(value) if isinstance(value, int | float) else None
+    return float(value) if isinstance(value, int | float) and math.isfinite(value) else None
 
 
 def second_of_day(value: object) -> float | None:

@@ -82,7 +82,7 @@ class NmeaPositions:
     def __init__(self, earliest: float) -> None:
         self._earliest = earliest
         self._clock = math.nan
-        self._gga = -math.inf
+        self._gga = math.nan
         self._velocity = (-math.inf, math.nan, math.nan)
         self._dilution = _NO_DILUTION
         self._held = _Held()
@@ -90,6 +90,8 @@ class NmeaPositions:
     def take(self, message: Any, t: float) -> Fix | NoFix | None:
         """Return the position of a sentence, if it is one of positions."""
         kind: str = message.msgID
+        if math.isnan(self._gga):
+            self._gga = t  # one may still come
         if kind == "GGA":
             self._gga = t
             return self._of_gga(message, t)

@@ -4,7 +4,7 @@ import re
 from enum import Enum
 from typing import NamedTuple
 
-from stommel.onboard.instruments.gnss.novatel.codec import HEADER_SIZE, SIZES, SYNC
+from stommel.onboard.instruments.gnss.novatel.codec import HEADER_SIZE, SIZES, SYNC, whole
 
 
 class Kind(Enum):
@@ -15,7 +15,7 @@ class Kind(Enum):
     ASCII = b"#"
     """A log of NovAtel's in ASCII, not yet believed."""
     BINARY = b"\xaa"
-    """One in binary, not yet believed."""
+    """One in binary, with a right CRC."""
     ANSWER = b"<"
     """The answer to a command, or the prompt after it."""
 
@@ -79,4 +79,6 @@ def _binary(buffer: bytes, at: int) -> tuple[Piece | None, int] | None:
     end = at + SIZES[number]
     if end > len(buffer):
         return None
+    if not whole(buffer[at:end]):
+        return None, at + 1  # it may hide the log after one that was cut short
     return Piece(Kind.BINARY, buffer[at:end]), end

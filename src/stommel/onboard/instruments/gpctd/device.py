@@ -9,7 +9,7 @@ from stommel.onboard.instruments.gpctd.stream import PROMPT
 from stommel.onboard.instruments.gpctd.upload import sample_line
 
 _LONGEST_COMMAND = 100
-_MOST_SAMPLES = 1_000_000
+_MOST_SAMPLES = 200_000
 """That its memory holds; after them it goes on sending live."""
 _MOST_AT_ONCE = 16
 

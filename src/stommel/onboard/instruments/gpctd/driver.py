@@ -1,5 +1,6 @@
 """Driver of the CTD: bytes in, readings out, live or out of its memory."""
 
+import math
 from collections import deque
 from dataclasses import dataclass
 from enum import StrEnum
@@ -11,6 +12,7 @@ from stommel.onboard.instruments.gpctd.reading import CtdReading
 from stommel.onboard.instruments.gpctd.stream import PROMPT, look
 from stommel.onboard.instruments.gpctd.upload import FLUSHED, Cast, cast_of, sample
 from stommel.onboard.instruments.health import Health
+from stommel.onboard.instruments.settings import refuse, require_positive
 
 _MOST_CASTS = 1000
 """That are kept of one list."""
@@ -53,12 +55,11 @@ class CtdSettings:
     """Whether the last samples of an upload are dropped, which are garbage of the instrument."""
     silence: float = 5.0
     """Without a line before it is told again to sample [s]."""
-    gap: float = 0.5
-    """Longest between two bytes of a line [s]."""
 
     def __post_init__(self) -> None:
         if self.variant not in VARIANTS:
-            raise ValueError(f"ctd variant {self.variant}: must be one of {', '.join(VARIANTS)}")
+            raise refuse("ctd.variant", self.variant, VARIANTS)
+        require_positive("ctd.silence", self.silence)
 
 
 class CtdDriver:
@@ -67,7 +68,7 @@ class CtdDriver:
     def __init__(self, settings: CtdSettings | None = None) -> None:
         self._set = settings or CtdSettings()
         self._variant = VARIANTS[self._set.variant]
-        self._framer: Framer[bytes] = Framer(look, self._set.gap)
+        self._framer: Framer[bytes] = Framer(look, gap=math.inf)
         self._sampling = False
         self._queue = b""
         self._told = self._heard = self._lined = self._last = float("-inf")
@@ -98,13 +99,11 @@ class CtdDriver:
 
         Raises
         ------
-        ValueError
+        SettingError
             The list has no such cast.
         """
         if number not in self.casts:
-            raise ValueError(
-                f"ctd cast {number}: must be one of {', '.join(map(str, self.casts)) or 'none: list first'}"
-            )
+            raise refuse("cast of the ctd", number, self.casts or ("those of a list that has come",))
         self._wanted, self._came, self.uploaded = number, 0, None
         self._held.clear()
         self._queue += b"UC%d\r\n" % number
@@ -114,6 +113,8 @@ class CtdDriver:
         out, self._queue = self._queue, b""
         if out:
             self._told = t
+        elif self._wanted is not None and t - max(self._told, self._lined) > self._set.silence:
+            self._end_upload(t)
         elif self._sampling and t - max(self._told, self._lined) > self._set.silence:
             self._told, self._whole = t, False
             out = b"\r\nstart\r\n"
@@ -136,7 +137,8 @@ class CtdDriver:
     def _line(self, line: bytes, t: float) -> list[CtdReading]:
         whole, self._whole = self._whole, True
         if line == PROMPT:
-            self._end_upload()
+            if self._came:  # and not the prompt before the answer
+                self._end_upload(t)
             return []
         if not line:
             return []
@@ -177,12 +179,12 @@ class CtdDriver:
         self._lined = t
         return []
 
-    def _end_upload(self) -> None:
-        if self._wanted is None or not self._came:
-            return  # the prompt before the answer
+    def _end_upload(self, t: float) -> None:
+        if self._wanted is None:
+            return
         cast = self.casts[self._wanted]
         self.uploaded = Upload(cast, self._came, self._came == cast.samples)
-        self._wanted = None
+        self._wanted, self._told = None, t
         self._held.clear()
 
     def _state_at(self, t: float) -> tuple[CtdState, str]:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 
 class CtdReading(NamedTuple):
-    """One sample, in the units that the instrument writes. What is no reading is not a number, and `refused` says why."""
+    """One sample, in the instrument's units. What is no reading is not a number, and `refused` says why."""
 
     t: float
     """When its last byte came [s]."""
@@ -32,7 +32,7 @@ LIMITS: dict[str, tuple[float, float]] = {
 """Values that the instrument can measure: -5 to 42 degC and 0 to 9 S/m with a little more for noise, 2000 m."""
 
 ERROR_VALUES = frozenset({99.0, 99.99, 99.999, 999.0, 999.9, 999.99, 9999.0, 9999.9, 9999.99, 99999.0})
-"""Numbers that instruments write for "no value", of either sign. Where one lies within the limits it is a measurement."""
+"""Numbers that instruments write for "no value", of either sign; within the limits they are measurements."""
 
 
 def checked(values: dict[str, float]) -> tuple[dict[str, float], tuple[str, ...]]:

@@ -1,22 +1,20 @@
 """Lines and prompts of the CTD."""
 
-from stommel.onboard.instruments.framing import Look
-
 LONGEST_LINE = 160
 PROMPT = b"S>"
 
 
 def look(buffer: bytes, at: int) -> tuple[bytes | None, int] | None:
-    """Look for a line or a prompt, as `framing.Framer` asks; a line comes without its end."""
+    """Look for a line or a prompt, as `framing.Framer` asks; a line comes without its end.
+
+    Lines have no checksum. Hence nothing is ever cut off the beginning of one to see whether the rest is a line.
+    """
     if buffer.startswith(PROMPT, at):
         return PROMPT, at + len(PROMPT)
-    end = buffer.find(b"\n", at, at + LONGEST_LINE)
+    end = buffer.find(b"\n", at)
+    last = len(buffer) if end < 0 else end
+    if last - at >= LONGEST_LINE:
+        return None, last - LONGEST_LINE + 1  # what is left is still too long to be taken for a line
     if end < 0:
-        if len(buffer) - at < LONGEST_LINE:
-            return None
-        return None, at + LONGEST_LINE
-    line = buffer[at : end + 1].rstrip(b"\r\n")
-    return line, end + 1
-
-
-_: Look[bytes] = look
+        return None
+    return buffer[at:end].rstrip(b"\r"), end + 1

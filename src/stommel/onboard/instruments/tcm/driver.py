@@ -7,6 +7,7 @@ from enum import StrEnum
 
 from stommel.onboard.instruments.framing import Framer
 from stommel.onboard.instruments.health import Health
+from stommel.onboard.instruments.settings import refuse, require_positive
 from stommel.onboard.instruments.tcm.calibration import KNOWN, MANUALS, Calibration, ModuleInfo, module_info, score
 from stommel.onboard.instruments.tcm.components import CONFIG_CODES, MEASURED, Config, config_payload, order_mark
 from stommel.onboard.instruments.tcm.frames import Datagram, Id, encoded, look
@@ -59,14 +60,16 @@ class CompassSettings:
     """Longest between two bytes of a frame [s]."""
 
     def __post_init__(self) -> None:
-        unknown = [number for number in self.config if number not in CONFIG_CODES]
-        foreign = {manual for manual in self.revisions.values() if manual not in MANUALS}
-        if unknown:
-            raise ValueError(f"compass config {unknown[0]}: must be one of {', '.join(map(str, sorted(CONFIG_CODES)))}")
-        if foreign:
-            raise ValueError(f"compass revisions: manual {min(foreign)} must be one of {', '.join(MANUALS)}")
+        for number in self.config:
+            if number not in CONFIG_CODES or number == Config.BIG_ENDIAN:
+                raise refuse("compass.config", number, sorted(set(CONFIG_CODES) - {Config.BIG_ENDIAN}))
+        for manual in self.revisions.values():
+            if manual not in MANUALS:
+                raise refuse("compass.revisions", manual, MANUALS)
         if len(self.taps) not in FIR_TAPS:
-            raise ValueError(f"compass taps: {len(self.taps)} must be one of {', '.join(map(str, FIR_TAPS))}")
+            raise refuse("number of compass.taps", len(self.taps), FIR_TAPS)
+        for name in ("interval", "answer_time", "silence", "gap"):
+            require_positive(f"compass.{name}", getattr(self, name))
 
 
 class CompassDriver:
@@ -95,7 +98,7 @@ class CompassDriver:
             self._begin(t, "")
         sampling = self._state is CompassState.SAMPLING
         if sampling and t - max(self._last, self._began) > self._set.silence:
-            self._begin(t, f"no reading for {self._set.silence:g} s")
+            self._begin(t, ": ".join(filter(None, (f"no reading for {self._set.silence:g} s", self._reason))))
         elif sampling:
             return out + self._demand(t)
         if t - self._asked > self._set.answer_time:
@@ -195,7 +198,7 @@ class CompassDriver:
             self._request, self._awaited, self._asked = request, answer, t
             if answer is not None:
                 return
-        self._state, self._reason, self._began, self._next = CompassState.SAMPLING, "", t, t
+        self._state, self._reason, self._began, self._next = CompassState.SAMPLING, "", t, float("-inf")
         self._awaited, self._request = None, b""
 
     def _data(self, payload: bytes, t: float) -> CompassReading | None:

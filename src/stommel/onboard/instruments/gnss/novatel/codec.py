@@ -45,9 +45,14 @@ def to_binary(message: Message) -> bytes:
     return data + crc(data).to_bytes(4, "little")
 
 
+def whole(data: bytes) -> bool:
+    """Whether the CRC of a binary log is right."""
+    return crc(data[:-4]) == int.from_bytes(data[-4:], "little")
+
+
 def from_binary(data: bytes) -> Message | None:
     """Return the log of `SIZES` bytes; None if its CRC is wrong."""
-    if crc(data[:-4]) != int.from_bytes(data[-4:], "little"):
+    if not whole(data):
         return None
     head = _HEADER.unpack_from(data)
     _, _, number, _, port, _, sequence, idle, time_status, week, ms, status, definition, version = head

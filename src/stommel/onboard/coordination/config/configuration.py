@@ -1,0 +1,164 @@
+"""A configuration that was read: the settings of the software's parts, SI units and radians."""
+
+from dataclasses import dataclass
+from math import radians
+from pathlib import Path
+
+from stommel.control.dive_cycle import PHASES
+from stommel.errors import FileError, Problem
+from stommel.files.toml_reader import read_table
+from stommel.messages.adapters import Adapter, BusError
+from stommel.onboard.coordination.compass.calibration import CompassCalibration
+from stommel.onboard.coordination.compass.calibration_file import read_calibration
+from stommel.onboard.coordination.compass.compensation import Masking
+from stommel.onboard.coordination.config.tables import ConfigurationFile
+from stommel.onboard.coordination.limits import ActuatorLimits, SafetyLimits
+from stommel.onboard.coordination.logbook.logbook import LogSettings
+from stommel.onboard.coordination.navigation import NavigationErrors
+from stommel.onboard.coordination.power import PowerSchedule
+from stommel.onboard.coordination.settings import CoordinatorSettings
+from stommel.onboard.instruments.gnss.driver import GnssSettings
+from stommel.onboard.instruments.tcm.driver import CompassSettings
+
+_MIB = 1 << 20
+
+
+@dataclass(frozen=True)
+class Configuration:
+    """What the software of a vehicle is set up with; `file` holds the numbers as they were written."""
+
+    file: ConfigurationFile
+    folder: Path
+    """Of the file: what it names stands beside it."""
+    calibration: CompassCalibration
+    """Of the compass; the identity where the file names none."""
+    adapter: Adapter
+    """Of the CAN bus."""
+
+    def path(self, name: str) -> Path:
+        """Path of what the file names."""
+        return self.folder / name
+
+    @property
+    def safety(self) -> SafetyLimits:
+        """What failsafes and start checks hold readings against."""
+        safety, limits = self.file.safety, self.file.limits
+        return SafetyLimits(
+            hull_rating_depth=limits.depth_rating_m,
+            submerged_depth=safety.submerged_depth_m,
+            longest_submerged=3600.0 * safety.longest_submerged_hours,
+            turning_time=safety.turning_time_s,
+            least_voltage=safety.least_voltage_v,
+            lowest_voltage=safety.lowest_voltage_v,
+            greatest_voltage=safety.greatest_voltage_v,
+            greatest_current=safety.greatest_current_a,
+            vacuum_lost=1e3 * safety.vacuum_lost_kpa,
+            hull_flooding=1e3 * safety.hull_flooding_kpa,
+            least_field=safety.least_field_ut,
+            greatest_field=safety.greatest_field_ut,
+        )
+
+    @property
+    def actuators(self) -> ActuatorLimits:
+        """What the actuators can do, and where they stand when the vehicle is brought up."""
+        limits, positions = self.file.limits, self.file.positions
+        return ActuatorLimits(
+            V_b_least=limits.ballast_ml[0] / 1e6,
+            V_b_greatest=limits.ballast_ml[1] / 1e6,
+            r_px_aft=limits.moving_mass_mm[0] / 1e3,
+            r_px_fore=limits.moving_mass_mm[1] / 1e3,
+            r_px_nose_up=positions.nose_up_mm / 1e3,
+            r_px_surface=positions.surface_mm / 1e3,
+            r_px_calling=positions.calling_mm / 1e3,
+            steering=radians(limits.steering_deg),
+            hold_mass=positions.tolerance_mm / 1e3,
+        )
+
+    @property
+    def coordinator(self) -> CoordinatorSettings:
+        """Settings of the coordinator."""
+        file = self.file
+        return CoordinatorSettings(
+            safety=self.safety,
+            actuators=self.actuators,
+            has_drop_weight=file.positions.drop_weight,
+            has_altimeter=file.positions.altimeter,
+            declination=radians(file.compass.declination_deg),
+            calibration=self.calibration,
+            masking=Masking(longest=file.compass.hold_s, settling=file.compass.settle_s),
+            sample_interval=file.sample_every_s,
+            compass=CompassSettings(interval=file.compass.interval_s, polled=False),
+            gnss=GnssSettings(format=file.gnss.format, port=file.gnss.receiver_port, interval=file.gnss.interval_s),
+        )
+
+    @property
+    def log(self) -> LogSettings:
+        """How much the log may take."""
+        log = self.file.log
+        return LogSettings(total_bytes=round(log.total_mib * _MIB), file_bytes=round(log.file_mib * _MIB), raw=log.raw)
+
+    @property
+    def schedule(self) -> PowerSchedule:
+        """When the controller decides, and what is on meanwhile."""
+        power, file = self.file.power, self.file
+        decide = tuple(getattr(power.decide_every_s, phase) for phase in PHASES)
+        return PowerSchedule(
+            decide=decide,
+            compass=tuple(
+                max(interval, file.compass.interval_s) if phase in power.compass_asleep_in else file.compass.interval_s
+                for phase, interval in zip(PHASES, decide, strict=True)
+            ),
+            ctd=(file.sample_every_s,) * len(PHASES),
+            gps=tuple(phase in power.gps_in for phase in PHASES),
+        )
+
+    @property
+    def usable_energy(self) -> float | None:
+        """Energy of the charged battery that may be taken [J]; None where the file does not say."""
+        capacity = self.file.limits.battery_wh
+        return None if capacity is None else 3600.0 * capacity * (1.0 - self.file.power.reserve)
+
+    @property
+    def navigation(self) -> NavigationErrors:
+        """What is assumed of the errors of dead reckoning."""
+        errors = self.file.navigation
+        return NavigationErrors(
+            speed=errors.speed_error,
+            speed_time=3600.0 * errors.speed_error_hours,
+            heading=radians(errors.heading_error_deg),
+            heading_time=3600.0 * errors.heading_error_hours,
+            current=errors.current_m_s,
+            current_change=errors.current_change_m_s,
+            current_time=3600.0 * errors.current_change_hours,
+            fix=errors.fix_m,
+        )
+
+
+def read_configuration(path: str | Path) -> Configuration:
+    """Read a vehicle's configuration, and the calibration of the compass that it names.
+
+    Raises
+    ------
+    FileError
+        A file cannot be read, is not TOML, or one problem for each wrong key, with what is allowed.
+    """
+    file = read_table(path, ConfigurationFile)
+    folder = Path(path).parent
+    try:
+        adapter = Adapter(file.can.interface, file.can.channel, file.can.bitrate)
+    except BusError as error:
+        raise FileError([Problem(str(path), "can", str(error))]) from None
+    name = file.compass.calibration
+    calibration = CompassCalibration() if name is None else _calibration(str(path), folder / name)
+    return Configuration(file, folder, calibration, adapter)
+
+
+def _calibration(origin: str, path: Path) -> CompassCalibration:
+    """Read the calibration that a configuration names; what cannot be read is said to be named there."""
+    try:
+        return read_calibration(path)
+    except FileError as error:
+        named = Problem(
+            origin, "compass.calibration", f"compass.calibration = {path.name!r}: cannot be used, see below"
+        )
+        raise FileError([named, *error.problems]) from None

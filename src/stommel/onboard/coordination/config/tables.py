@@ -1,0 +1,257 @@
+"""The tables of a vehicle's configuration, each key with its unit and its range."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from stommel.files.fields import Name, Table
+from stommel.files.kinds import Flag, Format
+from stommel.files.ranges import Hours, Position, Seconds, Share, Voltage, between
+from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits
+
+FileName = Annotated[str, Field(min_length=1, max_length=300)]
+PortName = Annotated[str, Field(min_length=1, max_length=200)]
+Baud = Literal[1200, 2400, 4800, 9600, 19_200, 38_400, 57_600, 115_200, 230_400, 460_800, 921_600]
+Interval = Annotated[float, between(0.1, 3600)]
+DecisionInterval = Annotated[float, between(0.1, 60)]
+FieldStrength = Annotated[float, between(1, 1000)]
+AirPressure = Annotated[float, between(0.1, 1000)]
+
+
+class Positions(Table):
+    """Where the moving mass stands when the software brings the vehicle up, and what else is fitted."""
+
+    nose_up_mm: Position
+    """Of the moving mass, for coming up."""
+    surface_mm: Position
+    """Of the moving mass, which raises the antenna."""
+    calling_mm: Position
+    """Of the moving mass when an aborted vehicle lies at the surface and calls."""
+    tolerance_mm: Annotated[float, between(0.01, 50)] = 0.5
+    """Distance from the commanded position below which the mass's drive stays off."""
+    drop_weight: Flag = False
+    """Whether there is a drop weight, and its release."""
+    altimeter: Flag = True
+    """Whether there is an altimeter."""
+
+
+class CanPort(Table):
+    """The bus to the nodes."""
+
+    interface: Literal["socketcan", "slcan", "udp_multicast", "virtual"] = "socketcan"
+    """Kind of the adapter."""
+    channel: Annotated[str, Field(max_length=200)] = ""
+    """Name of the adapter, port or address; the usual one of its kind if left out."""
+    bitrate: Literal[10_000, 20_000, 50_000, 100_000, 125_000, 250_000, 500_000, 750_000, 1_000_000] | None = None
+    """Of `slcan` only; that of `socketcan` is set in the operating system."""
+
+
+class CompassPort(Table):
+    """The compass: its serial port, its calibration, and how its heading is held while something disturbs it."""
+
+    port: PortName
+    """Serial port, as the operating system names it."""
+    baud: Baud = 38_400
+    """Bits per second."""
+    interval_s: Annotated[float, between(0.1, 60)] = 1.0
+    """Between two readings."""
+    calibration: FileName | None = None
+    """File of `stommel vehicle calibrate-compass`, beside this one. Without it the field is taken as it is, and the
+    heading is held while an actuator runs."""
+    declination_deg: Annotated[float, between(-180, 180)] = 0.0
+    """From magnetic to true north, east positive."""
+    hold_s: Annotated[float, between(0, 600)] = 20.0
+    """For how long a heading is held while something runs whose field is not known."""
+    settle_s: Annotated[float, between(0, 60)] = 0.0
+    """For how long it is held after that."""
+
+
+class GnssPort(Table):
+    """The receiver of GPS."""
+
+    port: PortName
+    """Serial port, as the operating system names it."""
+    baud: Baud = 9600
+    """Bits per second."""
+    format: Literal["novatel_binary", "novatel_ascii", "nmea"] = "novatel_binary"
+    """What the receiver is told to send."""
+    receiver_port: Annotated[str, Field(pattern=r"^[A-Za-z]\w*$", max_length=20)] = "COM1"
+    """Port of the receiver at which the vehicle is."""
+    interval_s: Annotated[float, between(0.05, 60)] = 1.0
+    """Between two positions."""
+
+
+class RadioPort(Table):
+    """The radio."""
+
+    port: PortName
+    """Serial port, as the operating system names it."""
+    baud: Baud = 57_600
+    """Bits per second."""
+
+
+class Safety(Table):
+    """Numbers that the failsafes and start checks hold readings against."""
+
+    submerged_depth_m: Annotated[float, between(0.1, 50)]
+    """Deeper than this the vehicle is under water, waves or not."""
+    longest_submerged_hours: Hours
+    """Time under water after which control has failed to bring it up: its own limit, and time to climb."""
+    turning_time_s: Seconds
+    """Longest time that a sound engine takes from a dive's ballast to a climb's, and the vehicle to turn."""
+    least_voltage_v: Voltage
+    """Below it there is no more dive."""
+    lowest_voltage_v: Voltage
+    """Below it the pump soon stops."""
+    greatest_voltage_v: Voltage
+    """Above it the gauge is wrong."""
+    greatest_current_a: Annotated[float, between(0.01, 1000)]
+    """Out of the battery, all consumers on."""
+    vacuum_lost_kpa: AirPressure
+    """Pressure in the hull above which its vacuum is lost."""
+    hull_flooding_kpa: AirPressure
+    """Pressure in the hull above which water presses its air together."""
+    least_field_ut: FieldStrength = 20.0
+    """Weakest plausible magnetic field."""
+    greatest_field_ut: FieldStrength = 100.0
+    """Strongest plausible one."""
+
+    @model_validator(mode="after")
+    def _are_ordered(self) -> Self:
+        for lower, upper in (
+            ("lowest_voltage_v", "least_voltage_v"),
+            ("least_voltage_v", "greatest_voltage_v"),
+            ("vacuum_lost_kpa", "hull_flooding_kpa"),
+            ("least_field_ut", "greatest_field_ut"),
+        ):
+            low, high = getattr(self, lower), getattr(self, upper)
+            if not low < high:
+                raise ValueError(f"{lower} = {low:g}: must be less than {upper} = {high:g}")
+        return self
+
+
+class Log(Table):
+    """The vehicle's log."""
+
+    folder: FileName = "log"
+    """Where it is kept, beside this file."""
+    total_mib: Annotated[float, between(0.1, 1e6)] = 1024.0
+    """Of all files together; the oldest that were sent ashore go first."""
+    file_mib: Annotated[float, between(0.015625, 1024)] = 4.0
+    """A file that has grown so large is closed, and the next begun."""
+    raw: Flag = False
+    """Whether frames of the bus and bytes of the ports are kept."""
+
+
+class Decisions(Table):
+    """Time between two decisions by phase of the dive [s]; in between the controller sleeps, and danger wakes it.
+
+    Control was written for decisions each second; what turns or brings up the vehicle should not be slower.
+    """
+
+    surface: DecisionInterval = 1.0
+    """At the surface, with position and radio."""
+    descent: DecisionInterval = 1.0
+    """Going down."""
+    inflection: DecisionInterval = 1.0
+    """Turning at the depth of the dive."""
+    ascent: DecisionInterval = 1.0
+    """Coming up."""
+    recovery: DecisionInterval = 1.0
+    """At the surface after the mission, calling."""
+    drift: DecisionInterval = 1.0
+    """Hanging in the water."""
+
+
+PhaseName = Literal["surface", "descent", "inflection", "ascent", "recovery", "drift"]
+
+
+class Power(Table):
+    """What saves energy, and the account of it."""
+
+    decide_every_s: Decisions = Decisions()
+    compass_asleep_in: tuple[PhaseName, ...] = ()
+    """Phases in which the compass measures only as often as the controller decides."""
+    gps_in: tuple[PhaseName, ...] = ("surface", "recovery")
+    """Phases in which GPS has power; elsewhere it hears nothing."""
+    reserve: Share = 0.1
+    """Part of the battery's energy that is kept."""
+    mean_over_hours: Hours = 4.0
+    """Time over which the mean power is taken, for the estimate of the hours left."""
+
+
+class Navigation(Table):
+    """What is assumed of the errors of dead reckoning, standard deviations each.
+
+    The vehicle tells by them how far its position may be wrong.
+    """
+
+    speed_error: Annotated[float, between(0, 1)] = 0.08
+    """Of the speed through the water, a share of it."""
+    speed_error_hours: Hours = 4.0
+    """How long it keeps."""
+    heading_error_deg: Annotated[float, between(0, 90)] = 3.0
+    """Of the heading."""
+    heading_error_hours: Hours = 2.0
+    """How long it keeps."""
+    current_m_s: Annotated[float, between(0, 3)] = 0.25
+    """Of a current of which nothing is known yet, each of north and east."""
+    current_change_m_s: Annotated[float, between(0, 3)] = 0.08
+    """By how much a current has changed after `current_change_hours`, each of north and east."""
+    current_change_hours: Hours = 6.0
+    """After which time."""
+    fix_m: Annotated[float, between(0.01, 1000)] = 10.0
+    """Of a position by GPS that does not say so itself, each of north and east."""
+
+
+class ConfigurationFile(Table):
+    """A vehicle's software."""
+
+    format: Format
+    kind: Literal["vehicle configuration"]
+    vehicle: Name
+    """Name of the vehicle."""
+    vehicle_id: Annotated[int, Field(strict=True, ge=1, le=250)]
+    """Number of the vehicle on the radio; each of a fleet has its own."""
+    missions: FileName = "missions"
+    """Folder of the missions that were received, beside this file."""
+    parameters: FileName = "parameters"
+    """Folder of the parameters and of what must outlive a restart."""
+    sample_every_s: Interval = 10.0
+    """Between two samples of the CTD, which is on the acquisition node."""
+    limits: VehicleLimits
+    positions: Positions
+    can: CanPort = CanPort()
+    compass: CompassPort
+    gnss: GnssPort
+    radio: RadioPort
+    safety: Safety
+    log: Log = Log()
+    power: Power = Power()
+    navigation: Navigation = Navigation()
+
+    @model_validator(mode="after")
+    def _mass_stays_within_its_travel(self) -> Self:
+        low, high = self.limits.moving_mass_mm
+        for name in ("nose_up_mm", "surface_mm", "calling_mm"):
+            value = getattr(self.positions, name)
+            if not low <= value <= high:
+                raise ValueError(
+                    f"positions.{name} = {value:g}: must be between {low:g} and {high:g} mm, the ends of "
+                    "limits.moving_mass_mm"
+                )
+        ports = {table: getattr(self, table).port for table in ("compass", "gnss", "radio")}
+        for table, port in ports.items():
+            others = [other for other in ports if other != table and ports[other] == port]
+            if others:
+                raise ValueError(f"{table}.port = {port!r}: is that of {others[0]} too; each needs a port of its own")
+        return self
+
+    @model_validator(mode="after")
+    def _log_has_room(self) -> Self:
+        least = 6.0 * self.log.file_mib
+        if self.log.total_mib < least:
+            raise ValueError(
+                f"log.total_mib = {self.log.total_mib:g}: must be at least {least:g}, six times log.file_mib"
+            )
+        return self

@@ -1,0 +1,63 @@
+"""Real ports of a vehicle: all are tried, and everything that is missing is told at once."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from stommel.errors import StommelError
+from stommel.messages.bus import CanBus
+from stommel.onboard.coordination.config import Configuration
+from stommel.onboard.coordination.coordinator import PORTS
+from stommel.onboard.instruments.serial_port import PortSettings, SerialPort
+
+
+class MissingPortsError(StommelError):
+    """Ports that cannot be opened; the message has a line for each, with its key."""
+
+    def __init__(self, origin: str, problems: list[str]) -> None:
+        self.problems = problems
+        super().__init__("\n".join(f"{origin}: {problem}" for problem in problems))
+
+
+@dataclass
+class RealPorts:
+    """The bus, and the serial ports by the names of `stommel.onboard.coordination.coordinator.PORTS`."""
+
+    bus: CanBus
+    serial: Mapping[str, SerialPort]
+
+    def close(self) -> None:
+        """Give everything back."""
+        self.bus.close()
+        for port in self.serial.values():
+            port.close()
+
+
+def open_ports(configuration: Configuration, origin: str) -> RealPorts:
+    """Open the bus and every serial port of a configuration; `origin` names its file in messages.
+
+    Raises
+    ------
+    MissingPortsError
+        At least one cannot be opened; none stays open.
+    """
+    problems: list[str] = []
+    bus: CanBus | None = None
+    try:
+        bus = CanBus(configuration.adapter)
+    except StommelError as error:
+        problems.append(str(error))
+    serial: dict[str, SerialPort] = {}
+    for name in PORTS:
+        try:
+            table = getattr(configuration.file, name)
+            serial[name] = SerialPort(PortSettings(f"{name}.port", table.port, table.baud))
+            serial[name].connect()
+        except StommelError as error:
+            problems.append(str(error))
+    if problems or bus is None:
+        for port in serial.values():
+            port.close()
+        if bus is not None:
+            bus.close()
+        raise MissingPortsError(origin, problems)
+    return RealPorts(bus, serial)

@@ -1,0 +1,177 @@
+"""The coordination software on real ports: one decision a second, the ports read in between."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from stommel.errors import StommelError
+from stommel.messages.database import database, database_hash
+from stommel.messages.frames import Frame
+from stommel.onboard.coordination.config import Configuration
+from stommel.onboard.coordination.coordinator import Coordinator
+from stommel.onboard.coordination.logbook.framing import LogIdentity
+from stommel.onboard.coordination.logbook.logbook import Logbook
+from stommel.onboard.coordination.situation import OperatorRequests
+from stommel.onboard.coordination.stores.continuity import ContinuityStore
+from stommel.onboard.coordination.stores.folder import FolderStorage
+from stommel.onboard.coordination.stores.missions import MissionStore
+from stommel.onboard.running.ports import RealPorts
+from stommel.version import __version__
+
+PERIOD = 1.0
+"""Between two steps of the coordinator [s]."""
+READ_EVERY = 0.05
+"""Between two looks at the ports [s]: the system keeps few bytes of a port that nobody reads."""
+
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Clock:
+    """Where time comes from."""
+
+    monotonic: Callable[[], float] = time.monotonic
+    """[s]"""
+    utc: Callable[[], float] = time.time
+    """[s since 1970]"""
+    sleep: Callable[[float], None] = time.sleep
+
+
+@dataclass
+class Figures:
+    """How the software did."""
+
+    decisions: int = 0
+    longest_step_ms: float = 0.0
+    """Of a decision with all frames of its second."""
+    total_step_s: float = 0.0
+    late: int = 0
+    """Steps that began more than half a period late."""
+
+    @property
+    def mean_step_ms(self) -> float:
+        """Mean of a decision with all frames of its second [ms]."""
+        return 1e3 * self.total_step_s / self.decisions if self.decisions else 0.0
+
+
+@dataclass
+class _Heard:
+    frames: list[Frame] = field(default_factory=list)
+    bytes: dict[str, bytes] = field(default_factory=dict)
+
+
+class VehicleSoftware:
+    """Coordinator, log and stores of a vehicle, on ports that are open.
+
+    Parameters
+    ----------
+    configuration
+        From `read_configuration`.
+    ports
+        From `open_ports`.
+    say
+        Takes sentences for whoever watches.
+    clock
+        Of the computer; another one in tests.
+
+    Raises
+    ------
+    StommelError
+        Log or stores cannot be opened.
+    """
+
+    def __init__(self, configuration: Configuration, ports: RealPorts, say: Say, clock: Clock | None = None) -> None:
+        self.configuration, self.ports, self.clock = configuration, ports, clock or Clock()
+        self.figures = Figures()
+        self._say, self._words = say, ""
+        self._alarms: tuple[str, ...] = ()
+        database()  # read now, not in the first decision
+        file, t = configuration.file, self.clock.monotonic()
+        self.missions = MissionStore(_folder(configuration, file.missions, "missions"), file.limits)
+        self.kept = ContinuityStore(_folder(configuration, file.parameters, "parameters"))
+        self.logbook = Logbook(
+            _folder(configuration, file.log.folder, "log.folder"),
+            configuration.log,
+            LogIdentity(__version__, database_hash(), file.vehicle, self.clock.utc()),
+            t,
+        )
+        self.coordinator = Coordinator(configuration.coordinator, t, logbook=self.logbook, store=self.kept)
+        for note in (*self.missions.notes, *self.kept.notes):
+            self._tell(t, "store", note)
+        self.take_mission(t)
+
+    def take_mission(self, t: float) -> None:
+        """Fly the mission that the store holds from now on."""
+        mission = self.missions.active
+        if mission is None:
+            return
+        utc = self.clock.utc()
+        self.missions.start(utc)
+        left = float("inf") if self.missions.expires is None else self.missions.expires - utc
+        self.coordinator.adopt(mission.orders, t + left, mission.number)
+        self._say(f"mission {mission.number}: {mission.header.mission}, for {mission.header.vehicle}")
+
+    def start(self) -> None:
+        """Let the mission begin as soon as the start checks have passed, as an operator asks."""
+        self.coordinator.request(OperatorRequests(start=True))
+
+    def run(self, seconds: float, stop: Callable[[], bool] = lambda: False) -> Figures:
+        """Run for a time [s], or until told to stop; the ports stay open."""
+        began = self.clock.monotonic()
+        due, heard = began, _Heard()
+        while not stop() and (now := self.clock.monotonic()) - began < seconds:
+            self._listen(heard, now)
+            if now >= due:
+                self.figures.late += now - due > 0.5 * PERIOD
+                due = due + PERIOD if now - due < PERIOD else now + PERIOD
+                self._step(heard, now)
+                heard = _Heard()
+            self.clock.sleep(max(0.0, min(READ_EVERY, due - self.clock.monotonic())))
+        self.logbook.sync(self.clock.monotonic())
+        return self.figures
+
+    def _listen(self, heard: _Heard, t: float) -> None:
+        heard.frames += self.ports.bus.receive()
+        for name, port in self.ports.serial.items():
+            heard.bytes[name] = heard.bytes.get(name, b"") + port.read(t)
+        for words in self.ports.bus.reports():
+            self._tell(t, "can", words)
+
+    def _step(self, heard: _Heard, t: float) -> None:
+        frames, to_ports = self.coordinator.step(t, heard.frames, heard.bytes)
+        for frame in frames:
+            self.ports.bus.send(frame)
+        for name, data in to_ports.items():
+            self.ports.serial[name].write(data, t)
+        figures = self.figures
+        took = self.clock.monotonic() - t
+        figures.decisions += 1
+        figures.total_step_s += took
+        figures.longest_step_ms = max(figures.longest_step_ms, 1e3 * took)
+        self._report()
+
+    def _report(self) -> None:
+        """Say what has changed since the last decision."""
+        view = self.coordinator.view
+        if view is None:
+            return
+        if view.executive.words != self._words:
+            self._words = view.executive.words
+            self._say(f"{self._words}: {view.executive.because}")
+        alarms = tuple(alarm.name for alarm in view.safety.active)
+        if alarms != self._alarms:
+            self._alarms = alarms
+            self._say(f"alarms: {', '.join(alarms) or 'none'}")
+
+    def _tell(self, t: float, code: str, words: str) -> None:
+        self.logbook.event(t, code, words)
+        self._say(words)
+
+
+def _folder(configuration: Configuration, name: str, key: str) -> FolderStorage:
+    path: Path = configuration.path(name)
+    try:
+        return FolderStorage(path)
+    except OSError as error:
+        raise StommelError(f"{key} = {name!r}: cannot be used: {error.strerror or error}") from None

@@ -6,7 +6,6 @@ from pathlib import Path
 from time import perf_counter
 
 from figures.registry import Measurement, figure
-
 from stommel.sitl.campaign.kit import fly_seed
 from stommel.sitl.campaign.run import TRIAL, load_kit, run_campaign
 from stommel.studies.running import cores

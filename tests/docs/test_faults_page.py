@@ -3,10 +3,10 @@
 import importlib
 import re
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
-import tomllib
 
 from stommel.sitl.faults.fault import faults_from
 from stommel.sitl.faults.table import KINDS, SENSORS

@@ -1,5 +1,7 @@
-"""The software on real ports, held against what it says in the loop: `stommel vehicle run` in a process of its own, on a
-CAN bus of multicast frames and on pseudo-terminals, with a simulated vehicle at their other ends."""
+"""The software on real ports: `stommel vehicle run` in a process of its own, against a simulated vehicle.
+
+Oracle: what it says and does in the loop. The CAN bus is one of multicast frames, the serial ports are terminals.
+"""
 
 import json
 import os

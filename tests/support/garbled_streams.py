@@ -12,14 +12,14 @@ import tracemalloc
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from stommel.onboard.instruments.gnss.device import GnssDevice, GnssTruth
-from stommel.onboard.instruments.gnss.driver import GnssDriver, GnssSettings
-from stommel.onboard.instruments.gnss.fix import Fix, FixLimits
-from stommel.onboard.instruments.gpctd.device import CtdTruth
-from stommel.onboard.instruments.gpctd.driver import CtdDriver
-from stommel.onboard.instruments.gpctd.live import VARIANTS, live_line
-from stommel.onboard.instruments.tcm.device import CompassDevice, CompassTruth
-from stommel.onboard.instruments.tcm.driver import CompassDriver
+from stommel.instruments.gnss.device import GnssDevice, GnssTruth
+from stommel.instruments.gnss.driver import GnssDriver, GnssSettings
+from stommel.instruments.gnss.fix import Fix, FixLimits
+from stommel.instruments.gpctd.device import CtdTruth
+from stommel.instruments.gpctd.driver import CtdDriver
+from stommel.instruments.gpctd.live import VARIANTS, live_line
+from stommel.instruments.tcm.device import CompassDevice, CompassTruth
+from stommel.instruments.tcm.driver import CompassDriver
 
 Value = float
 """What tells a frame: its heading, latitude or pressure."""
@@ -190,8 +190,9 @@ def _latitudes_in(stream: bytes) -> set[Value]:
     """Of two halves of sentences, one in 256 has a right checksum: no parser can tell."""
     found = set()
     for text in filter(nmea_is_right, _GGA.findall(stream)):
-        place = text.split(b",")[2]
-        found.add(round(int(place[:2]) + float(place[2:]) / 60.0, 6))
+        place = re.match(rb"(\d\d)(\d\d\.\d+)$", text.split(b",")[2])
+        if place:
+            found.add(round(int(place[1]) + float(place[2]) / 60.0, 6))
     return found
 
 
@@ -231,7 +232,7 @@ class Part:
 
 
 def garbage(parser: Parser, draw: random.Random, n: int) -> bytes:
-    """Noise, beginnings, runs of one byte, frames that have lost their end or beginning, and frames with flipped bits."""
+    """Noise, beginnings, runs of one byte, frames without their end or beginning, and frames with flipped bits."""
     kind = draw.randrange(6)
     if kind == 0:
         return draw.randbytes(draw.randrange(1, 200))

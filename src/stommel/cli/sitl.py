@@ -49,7 +49,7 @@ sitl_app = typer.Typer(
     cls=_FliesByDefault,
     no_args_is_help=True,
     rich_markup_mode="markdown",
-    help="Fly the vehicle's own software in the loop; `stommel sitl SCENARIO` stands for `stommel sitl fly SCENARIO`.",
+    help="The vehicle's own software in the loop; `stommel sitl SCENARIO` is short for `stommel sitl fly SCENARIO`.",
 )
 sitl_app.command("stand-in")(stand_in)
 sitl_app.command("campaign")(campaign)

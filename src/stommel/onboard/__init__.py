@@ -1,1 +1,1 @@
-"""The vehicle's software: coordination, execution, instruments. Bytes, readings and time in; bytes and commands out."""
+"""The vehicle's software: coordination, execution and the edge. Bytes, readings and time in; bytes and commands out."""

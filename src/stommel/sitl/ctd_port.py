@@ -3,8 +3,8 @@
 import math
 from collections.abc import Sequence
 
-from stommel.onboard.instruments.gpctd.device import CtdDevice, CtdTruth
-from stommel.onboard.instruments.gpctd.driver import CtdDriver
+from stommel.instruments.gpctd.device import CtdDevice, CtdTruth
+from stommel.instruments.gpctd.driver import CtdDriver
 
 
 class CtdPort:

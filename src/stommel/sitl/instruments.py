@@ -4,8 +4,8 @@ import math
 
 from stommel.geometry.attitude import wrapped
 from stommel.geometry.vectors import Vector
-from stommel.onboard.instruments.gnss.device import GnssDevice, GnssTruth
-from stommel.onboard.instruments.tcm.device import CompassDevice, CompassTruth
+from stommel.instruments.gnss.device import GnssDevice, GnssTruth
+from stommel.instruments.tcm.device import CompassDevice, CompassTruth
 from stommel.sitl.plant import Felt
 
 EARTH_FIELD = 50.0

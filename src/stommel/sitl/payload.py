@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from stommel.onboard.instruments.gpctd.device import CtdTruth
+from stommel.instruments.gpctd.device import CtdTruth
 from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.sitl.plant import Plant
 

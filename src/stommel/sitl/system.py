@@ -19,15 +19,18 @@ from stommel.onboard.coordination.coordinator import COMPASS, GNSS, RADIO, Coord
 from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook
 from stommel.onboard.coordination.situation import OperatorRequests
+from stommel.onboard.coordination.stores.continuity import ContinuityStore
 from stommel.onboard.execution.acquisition_io import AcquisitionOutputs, AcquisitionReadings
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
 from stommel.onboard.execution.motion_io import AT_REST, DriveOutputs, MotionReadings
 from stommel.onboard.execution.motion_node import MotionNode
+from stommel.onboard.execution.node_states import Mode
 from stommel.simulation.plant.driven import Drives
 from stommel.simulation.scenario.mission import Mission
 from stommel.sitl.can_bus import SimulatedBus
 from stommel.sitl.ctd_port import CtdPort
 from stommel.sitl.equipment import acquisition_settings, coordinator_settings, known_disturbances, motion_settings
+from stommel.sitl.faults.disk import MemoryDisk
 from stommel.sitl.faults.injector import Injector
 from stommel.sitl.instruments import CompassPort, GnssPort, compass_truth
 from stommel.sitl.nodes import Acquisition, Bus, Motion
@@ -82,9 +85,7 @@ class System:
         setup = self.plant.setup
         machinery, orders = setup.equipment.plant, setup.orders
         self.ports = Ports()
-        self.simulated_bus = SimulatedBus(NODES)
-        """Where faults act."""
-        self.bus: Bus = self.simulated_bus
+        self.bus: Bus = SimulatedBus(NODES)
         self.motion: Motion = MotionNode(motion_settings(machinery, orders))
         self.acquisition: Acquisition = AcquisitionNode(acquisition_settings(machinery), ctd=self.ports.ctd)
         self.expires = expires
@@ -94,6 +95,7 @@ class System:
         """What the motion node told the power stages last."""
         self.restarts = dict.fromkeys(NODES, 0)
         """How often each computer has started anew."""
+        self._kept = MemoryDisk() if self.inject.disk is None else self.inject.disk
         self.coordinator = self._started_coordinator(0.0, logbook)
         self.coordinator.request(OperatorRequests(start=True))
 
@@ -102,11 +104,17 @@ class System:
         """Whether the mission goes on."""
         return self.plant.running
 
+    @property
+    def motion_mode(self) -> Mode | None:
+        """What the motion-control node is about; None if it is in a process of its own."""
+        return self.motion.link.modes.mode if isinstance(self.motion, MotionNode) else None
+
     def step(self) -> None:
         """Let one step pass."""
         plant, t, inject = self.plant, self.plant.time, self.inject
-        for node in inject.begin(plant, self.simulated_bus):
-            self._restart(node, t)
+        if isinstance(self.bus, SimulatedBus):  # faults reach no other
+            for node in inject.begin(plant, self.bus):
+                self._restart(node, t)
         felt = inject.felt(plant.feel())
         if not plant.running:
             return
@@ -146,7 +154,7 @@ class System:
             inject.lose_power()
 
     def _started_coordinator(self, t: float, logbook: Logbook | None) -> Coordinator:
-        """Switch the coordinator on, with what its store keeps."""
+        """Switch the coordinator on, with what its disk keeps of the time before."""
         setup, inject = self.plant.setup, self.inject
         every, sensors = self.mission.scenario.sampling.every_s, setup.equipment.sensors
         if inject.disk is not None:
@@ -154,9 +162,9 @@ class System:
             logbook = inject.new_logbook(inject.disk, identity, t)
         coordinator = Coordinator(
             coordinator_settings(setup, every, known_disturbances(sensors)), inject.clock(t), logbook=logbook,
-            store=inject.store(), decision=inject.decision() or decide,
+            store=ContinuityStore(self._kept), decision=inject.decision() or decide,
         )  # fmt: skip
-        coordinator.adopt(setup.orders, self.expires)
+        coordinator.adopt(setup.orders, self.expires, mission=1)
         return coordinator
 
     def _restart(self, node: int, t: float) -> None:

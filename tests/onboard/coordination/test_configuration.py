@@ -17,13 +17,13 @@ from stommel.control.dive_cycle import DRIFT, PHASES, RECOVERY, SURFACE
 from stommel.errors import FileError
 from stommel.files.docstrings import attribute_docstrings
 from stommel.files.table_keys import models_in
+from stommel.instruments.serial_port import BAUD_RATES
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.config import ConfigurationFile, read_configuration
 from stommel.onboard.coordination.config.text import configuration_text
 from stommel.onboard.coordination.logbook.logbook import LogSettings
 from stommel.onboard.coordination.navigation import NavigationErrors
 from stommel.onboard.coordination.power import PowerSchedule
-from stommel.onboard.instruments.serial_port import BAUD_RATES
 from stommel.simulation.scenario.loading import load_mission
 from stommel.simulation.scenario.shipped import mission_path
 from stommel.simulation.setup import prepare

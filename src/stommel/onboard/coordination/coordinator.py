@@ -4,6 +4,10 @@ from collections.abc import Iterable, Mapping
 
 from stommel.control.commands import Commands
 from stommel.control.orders import Orders
+from stommel.instruments.gnss.driver import GnssDriver, GnssState
+from stommel.instruments.gnss.fix import Fix
+from stommel.instruments.radio import Radio
+from stommel.instruments.tcm.driver import CompassDriver
 from stommel.messages.codec import Encoder
 from stommel.messages.database import COORDINATOR, value_named
 from stommel.messages.frames import Frame
@@ -25,10 +29,6 @@ from stommel.onboard.coordination.settings import CoordinatorSettings
 from stommel.onboard.coordination.situation import NO_REQUESTS, OperatorRequests
 from stommel.onboard.coordination.stores.continuity import Continuity, ContinuityStore
 from stommel.onboard.coordination.view import View
-from stommel.onboard.instruments.gnss.driver import GnssDriver, GnssState
-from stommel.onboard.instruments.gnss.fix import Fix
-from stommel.onboard.instruments.radio import Radio
-from stommel.onboard.instruments.tcm.driver import CompassDriver
 
 COMPASS, GNSS, RADIO = "compass", "gnss", "radio"
 PORTS = (COMPASS, GNSS, RADIO)

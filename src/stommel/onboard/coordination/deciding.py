@@ -11,7 +11,7 @@ from stommel.control.dive_cycle import NOTHING, SURFACE
 from stommel.control.memory import new_memory
 from stommel.control.orders import Orders
 from stommel.control.readings import Readings
-from stommel.onboard.coordination.executive import ExecutiveState
+from stommel.onboard.coordination.executive import FLOWN, ExecutiveState
 from stommel.onboard.coordination.executive_commands import instruct
 from stommel.onboard.coordination.power import orders_for
 
@@ -79,7 +79,8 @@ class Pilot:
             if not readings.fixed:
                 return None
             self.memory = new_memory(readings.fix_latitude, readings.fix_longitude, readings.psi)
-            self.memory["since"] = t
+            # its stay at the surface begins with the first decision that is obeyed
+            self.memory["since"] = t if state.state in FLOWN else t + self.orders.step
             self.memory["waypoint"], self.memory["energy_used"] = self._taken_up
         orders = orders_for(self.orders, interval)
         try:

@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass, field
 
+from stommel.instruments.gnss.driver import GnssSettings
+from stommel.instruments.tcm.driver import CompassSettings
 from stommel.messages.nodes import NodeKind
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.compass.compensation import Masking
 from stommel.onboard.coordination.limits import ActuatorLimits, SafetyLimits
 from stommel.onboard.coordination.navigation import NavigationErrors
 from stommel.onboard.coordination.power import PowerSchedule
-from stommel.onboard.instruments.gnss.driver import GnssSettings
-from stommel.onboard.instruments.tcm.driver import CompassSettings
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,7 @@ from stommel.messages.database import COORDINATOR, MOTION
 from stommel.onboard.coordination.executive import State
 from stommel.onboard.coordination.logbook.file_names import log_name
 from stommel.onboard.coordination.logbook.reader import read_log
-from stommel.onboard.execution.motion_node import BLOWING, MotionNode
-from stommel.onboard.execution.node_states import Mode
+from stommel.onboard.execution.motion_node import BLOWING
 from stommel.simulation.mission_loop import LOST, NOT_FINITE
 from stommel.sitl.faults.disk import MemoryDisk
 from stommel.sitl.system import System
@@ -33,16 +32,10 @@ class Verdict(NamedTuple):
     """How it ended, in words."""
 
 
-def mode_of(system: System) -> Mode:
-    """Mode of the motion node, which flies in our process."""
-    assert isinstance(system.motion, MotionNode)
-    return system.motion.link.modes.mode
-
-
 def is_aborting(system: System) -> bool:
     """Whether coordinator or motion node bring the vehicle up."""
     view, runs = system.coordinator.view, system.inject.runs
-    if runs(MOTION) and mode_of(system) in BLOWING:
+    if runs(MOTION) and system.motion_mode in BLOWING:
         return True
     return runs(COORDINATOR) and view is not None and view.executive.state in (State.ABORT, State.ASCEND)
 
@@ -76,12 +69,12 @@ class Watch:
 
 def ending_of(system: System) -> str:
     """How it ended, in words."""
-    plant, view = system.plant, system.coordinator.view
+    plant, view, mode = system.plant, system.coordinator.view, system.motion_mode
     words = "coordinator never spoke" if view is None else view.executive.words
     if not system.inject.runs(COORDINATOR):
         words = "coordinator without power"
     return (
-        f"{plant.ending}, at {plant.depth:.1f} m; {words}; motion node {mode_of(system).value}; "
+        f"{plant.ending}, at {plant.depth:.1f} m; {words}; motion node {mode.value if mode else 'elsewhere'}; "
         f"oil {1e6 * plant.oil:.0f} ml, leaked {1e6 * float(plant.setup.world['leaked']):.0f} ml, "
         f"{1e6 * plant.spare(plant.depth):+.0f} ml to spare"
     )

@@ -9,11 +9,10 @@ from stommel.control.commands import Commands
 from stommel.control.decision import decide
 from stommel.control.orders import Orders
 from stommel.control.readings import Readings
+from stommel.instruments.gpctd.device import CtdTruth
 from stommel.messages.frames import Frame
 from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook, LogSettings
-from stommel.onboard.coordination.stores.continuity import ContinuityStore
-from stommel.onboard.instruments.gpctd.device import CtdTruth
 from stommel.simulation.plant.hull_air import Hull
 from stommel.sitl.faults import table
 from stommel.sitl.faults.acting import Acting
@@ -53,7 +52,6 @@ class Injector:
         """Those that act now."""
         self.logbooks: list[Logbook] = []
         """Of each start of the coordinator."""
-        self._stored = MemoryDisk() if disk is None else disk
         self._all = [Acting(fault, seed) for fault in self.faults]
         self._bus = BusFaults()
         self._draw = np.random.default_rng((seed, 0))
@@ -144,10 +142,6 @@ class Injector:
         """Return the logbook of a coordinator that starts, on the disk of the one before."""
         self.logbooks.append(Logbook(disk, LogSettings(), identity, self.clock(t)))
         return self.logbooks[-1]
-
-    def store(self) -> ContinuityStore | None:
-        """Return the store that a coordinator finds as it starts; None where nothing can make it start anew."""
-        return ContinuityStore(self._stored) if self._all else None
 
     # inside
 

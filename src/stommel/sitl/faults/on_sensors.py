@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from math import cos, nan, radians
 from typing import Any
 
-from stommel.onboard.instruments.gpctd.device import CtdTruth
+from stommel.instruments.gpctd.device import CtdTruth
 from stommel.sitl.faults import table
 from stommel.sitl.faults.acting import Acting
 from stommel.sitl.plant import Felt

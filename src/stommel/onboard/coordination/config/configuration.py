@@ -7,6 +7,8 @@ from pathlib import Path
 from stommel.control.dive_cycle import PHASES
 from stommel.errors import FileError, Problem
 from stommel.files.toml_reader import read_table
+from stommel.instruments.gnss.driver import GnssSettings
+from stommel.instruments.tcm.driver import CompassSettings
 from stommel.messages.adapters import Adapter, BusError
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.compass.calibration_file import read_calibration
@@ -17,8 +19,6 @@ from stommel.onboard.coordination.logbook.logbook import LogSettings
 from stommel.onboard.coordination.navigation import NavigationErrors
 from stommel.onboard.coordination.power import PowerSchedule
 from stommel.onboard.coordination.settings import CoordinatorSettings
-from stommel.onboard.instruments.gnss.driver import GnssSettings
-from stommel.onboard.instruments.tcm.driver import CompassSettings
 
 _MIB = 1 << 20
 

@@ -4,7 +4,7 @@ import re
 from calendar import timegm
 from typing import NamedTuple
 
-from stommel.onboard.instruments.gpctd.reading import CtdReading, checked
+from stommel.instruments.gpctd.reading import CtdReading, checked
 
 
 class Scale(NamedTuple):

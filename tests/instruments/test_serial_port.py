@@ -14,14 +14,14 @@ from typing import Any
 import pytest
 
 from stommel.errors import StommelError
-from stommel.onboard.instruments.gnss.device import GnssDevice, GnssTruth
-from stommel.onboard.instruments.gnss.driver import GnssDriver, GnssSettings
-from stommel.onboard.instruments.gnss.fix import Fix
-from stommel.onboard.instruments.gpctd.device import CtdDevice, CtdTruth
-from stommel.onboard.instruments.gpctd.driver import CtdDriver
-from stommel.onboard.instruments.serial_port import PortError, PortSettings, PortState, SerialPort
-from stommel.onboard.instruments.tcm.device import CompassDevice, CompassTruth
-from stommel.onboard.instruments.tcm.driver import CompassDriver, CompassSettings, CompassState
+from stommel.instruments.gnss.device import GnssDevice, GnssTruth
+from stommel.instruments.gnss.driver import GnssDriver, GnssSettings
+from stommel.instruments.gnss.fix import Fix
+from stommel.instruments.gpctd.device import CtdDevice, CtdTruth
+from stommel.instruments.gpctd.driver import CtdDriver
+from stommel.instruments.serial_port import PortError, PortSettings, PortState, SerialPort
+from stommel.instruments.tcm.device import CompassDevice, CompassTruth
+from stommel.instruments.tcm.driver import CompassDriver, CompassSettings, CompassState
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
 LONGEST_WAIT = 20.0
@@ -168,7 +168,9 @@ def test_unplugged_port_is_named_and_comes_back(tmp_path: Path) -> None:
 
 def test_absent_port_names_key_and_port() -> None:
     port = SerialPort(PortSettings("gnss.port", "/dev/ttyNOWHERE", 9600))
-    with pytest.raises(PortError, match=r"^gnss\.port = /dev/ttyNOWHERE: there is no such port; there (is|are) [^\n]+$"):
+    with pytest.raises(
+        PortError, match=r"^gnss\.port = /dev/ttyNOWHERE: there is no such port; there (is|are) [^\n]+$"
+    ):
         port.connect()
     assert port.read(0.0) == b""
     assert port.write(b"x", 0.0) == 0

@@ -4,9 +4,9 @@ import math
 import time
 from typing import NamedTuple
 
-from stommel.onboard.instruments.gpctd.live import VARIANTS, live_line
-from stommel.onboard.instruments.gpctd.stream import PROMPT
-from stommel.onboard.instruments.gpctd.upload import sample_line
+from stommel.instruments.gpctd.live import VARIANTS, live_line
+from stommel.instruments.gpctd.stream import PROMPT
+from stommel.instruments.gpctd.upload import sample_line
 
 _LONGEST_COMMAND = 100
 _MOST_SAMPLES = 200_000

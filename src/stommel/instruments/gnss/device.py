@@ -6,11 +6,11 @@ import time
 from collections.abc import Callable
 from typing import NamedTuple
 
-from stommel.onboard.instruments.gnss.gps_time import LEAP_SECONDS, ROLL_OVER, week_and_ms
-from stommel.onboard.instruments.gnss.nmea import KNOT, angle, sentence
-from stommel.onboard.instruments.gnss.novatel.codec import Message, to_ascii, to_binary
-from stommel.onboard.instruments.gnss.novatel.logs import BestPos, BestVel, Header, Log, Time, no_position
-from stommel.onboard.instruments.gnss.novatel.words import (
+from stommel.instruments.gnss.gps_time import LEAP_SECONDS, ROLL_OVER, week_and_ms
+from stommel.instruments.gnss.nmea import KNOT, angle, sentence
+from stommel.instruments.gnss.novatel.codec import Message, to_ascii, to_binary
+from stommel.instruments.gnss.novatel.logs import BestPos, BestVel, Header, Log, Time, no_position
+from stommel.instruments.gnss.novatel.words import (
     COMPUTED,
     DOPPLER,
     FINESTEERING,

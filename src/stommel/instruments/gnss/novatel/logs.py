@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from stommel.onboard.instruments.gnss.novatel.words import (
+from stommel.instruments.gnss.novatel.words import (
     CLOCK,
     COM1,
     DATUM,

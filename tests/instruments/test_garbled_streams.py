@@ -45,7 +45,7 @@ WORST = {
 
 @pytest.mark.parametrize(("name", "worst"), [(name, worst) for name in WORST for worst in WORST[name]])
 def test_time_is_linear_in_the_bytes(name: str, worst: bytes) -> None:
-    """Twenty times the bytes take twenty times the time of the processor, a square four hundred times; 120 tells them."""
+    """Twenty times the bytes take twenty times the processor's time, a square four hundred times: 120 tells."""
     seconds = {}
     for size in (10_000, 200_000):
         best = float("inf")

@@ -1,5 +1,6 @@
 """The edge: a serial port of the operating system, by pyserial. It never waits, and comes back after unplugging."""
 
+import os
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -103,9 +104,7 @@ class SerialPort:
         self._waiting += data[:accepted]
         if self._waiting:
             try:
-                self._waiting = self._waiting[self._port.write(self._waiting) or 0 :]
-            except serial.SerialTimeoutException:
-                pass
+                self._waiting = self._waiting[_written(self._port, self._waiting) :]
             except (OSError, TypeError) as error:
                 self._lose(error, t)
         return accepted
@@ -145,6 +144,19 @@ class SerialPort:
 def present_ports() -> tuple[str, ...]:
     """Serial ports that the operating system has."""
     return tuple(sorted(port.device for port in list_ports.comports()))
+
+
+def _written(port: Any, data: bytes) -> int:  # of pyserial, which has no types
+    """Write what the port takes now, and return how much that was.
+
+    On POSIX pyserial's own `write` without a timeout does not return before the port takes more.
+    """
+    if os.name == "nt":
+        return port.write(data) or 0
+    try:
+        return os.write(port.fileno(), data)
+    except BlockingIOError:
+        return 0
 
 
 def _sentence(settings: PortSettings, error: Exception) -> str:

@@ -3,16 +3,17 @@
 import math
 import struct
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 
 from stommel.errors import StommelError
-from stommel.onboard.instruments.tcm.calibration import MANUALS
-from stommel.onboard.instruments.tcm.components import Component, Config, config_payload
-from stommel.onboard.instruments.tcm.device import CompassDevice, CompassTruth
-from stommel.onboard.instruments.tcm.driver import CompassDriver, CompassSettings, CompassState
-from stommel.onboard.instruments.tcm.frames import LONGEST, PAYLOADS, Id, encoded, look
-from stommel.onboard.instruments.tcm.reading import DISTORTED, UNCALIBRATED, CompassReading
+from stommel.instruments.tcm.calibration import MANUALS
+from stommel.instruments.tcm.components import Component, Config, config_payload
+from stommel.instruments.tcm.device import CompassDevice, CompassTruth
+from stommel.instruments.tcm.driver import CompassDriver, CompassSettings, CompassState
+from stommel.instruments.tcm.frames import LONGEST, PAYLOADS, Id, encoded, look
+from stommel.instruments.tcm.reading import DISTORTED, UNCALIBRATED, CompassReading
 from tests.support.garbled_streams import crc_bit_by_bit
 
 TRUTH = CompassTruth(math.radians(123.4), math.radians(-26.0), math.radians(3.0), (0.1, -0.2, 0.97), (20.0, -5.0, 41.0))
@@ -103,7 +104,7 @@ def test_status_says_distorted_and_uncalibrated() -> None:
 def test_readings_come_at_the_interval_that_was_set() -> None:
     driver, device = CompassDriver(CompassSettings(interval=5.0, silence=12.0)), CompassDevice()
     times = [reading.t for reading in flown(driver, device, 0, 40)]
-    assert {b - a for a, b in zip(times, times[1:], strict=False)} == {5.0}
+    assert {b - a for a, b in pairwise(times)} == {5.0}
 
 
 def test_restart_of_the_instrument_is_mended() -> None:

@@ -6,12 +6,12 @@ import random
 import pytest
 
 from stommel.errors import StommelError
-from stommel.onboard.instruments.gpctd.device import CtdDevice, CtdTruth
-from stommel.onboard.instruments.gpctd.driver import CtdDriver, CtdSettings, CtdState
-from stommel.onboard.instruments.gpctd.live import VARIANTS, live_reading
-from stommel.onboard.instruments.gpctd.reading import CtdReading
-from stommel.onboard.instruments.gpctd.stream import LONGEST_LINE
-from stommel.onboard.instruments.gpctd.upload import cast_of, sample, sample_line
+from stommel.instruments.gpctd.device import CtdDevice, CtdTruth
+from stommel.instruments.gpctd.driver import CtdDriver, CtdSettings, CtdState
+from stommel.instruments.gpctd.live import VARIANTS, live_reading
+from stommel.instruments.gpctd.reading import CtdReading
+from stommel.instruments.gpctd.stream import LONGEST_LINE
+from stommel.instruments.gpctd.upload import cast_of, sample, sample_line
 
 VECTOR = b"004074C76D8651408F1A"
 CAST = "cast   1 22 Jul 2026 18:23:17 samples 1 to 176, int = 5, stop = stop cmd"
@@ -20,9 +20,7 @@ UTC = 1784744597.0
 TRUTH = CtdTruth(123.456, 12.3456, 3.56789, UTC, 3663.4)
 
 
-def sampled(
-    driver: CtdDriver, device: CtdDevice, begin: int, end: int, truth: CtdTruth = TRUTH
-) -> list[CtdReading]:
+def sampled(driver: CtdDriver, device: CtdDevice, begin: int, end: int, truth: CtdTruth = TRUTH) -> list[CtdReading]:
     readings = []
     for t in range(begin, end):
         readings += driver.take(device.take(driver.poll(t), truth._replace(utc=UTC + t), t), t)
@@ -70,7 +68,14 @@ def test_other_lines_are_no_cast(line: str) -> None:
 def test_stored_samples_have_the_values_that_the_instrument_has(oxygen: bool) -> None:
     size = 20 if oxygen else 15
     assert sample(VECTOR[:size], oxygen, 0.0, UTC) is not None
-    for wrong in (VECTOR[: size - 1], VECTOR[: 35 - size], VECTOR[:size] + b"0", VECTOR[:size].lower(), b"", b"G" * size):
+    for wrong in (
+        VECTOR[: size - 1],
+        VECTOR[: 35 - size],
+        VECTOR[:size] + b"0",
+        VECTOR[:size].lower(),
+        b"",
+        b"G" * size,
+    ):
         assert sample(wrong, oxygen, 0.0, UTC) is None
 
 
@@ -105,6 +110,7 @@ def test_stored_error_values_are_no_reading(line: bytes, name: str) -> None:
     ("line", "name", "word"),
     [
         (b"9999,12.0000,3.00000", "pressure", "error value"),
+        (b"999,12.0000,3.00000", "pressure", "error value"),
         (b"9999.000,12.0000,3.00000", "pressure", "error value"),
         (b"-999,12.0000,3.00000", "pressure", "error value"),
         (b"10.000,9999.0000,3.00000", "temperature", "error value"),

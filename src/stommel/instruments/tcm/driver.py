@@ -5,13 +5,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
-from stommel.onboard.instruments.framing import Framer
-from stommel.onboard.instruments.health import Health
-from stommel.onboard.instruments.settings import refuse, require_positive
-from stommel.onboard.instruments.tcm.calibration import KNOWN, MANUALS, Calibration, ModuleInfo, module_info, score
-from stommel.onboard.instruments.tcm.components import CONFIG_CODES, MEASURED, Config, config_payload, order_mark
-from stommel.onboard.instruments.tcm.frames import Datagram, Id, encoded, look
-from stommel.onboard.instruments.tcm.reading import CompassReading, reading
+from stommel.instruments.framing import Framer
+from stommel.instruments.health import Health
+from stommel.instruments.settings import refuse, require_positive
+from stommel.instruments.tcm.calibration import KNOWN, MANUALS, Calibration, ModuleInfo, module_info, score
+from stommel.instruments.tcm.components import CONFIG_CODES, MEASURED, Config, config_payload, order_mark
+from stommel.instruments.tcm.frames import Datagram, Id, encoded, look
+from stommel.instruments.tcm.reading import CompassReading, reading
 
 FIR_TAPS = (0, 4, 8, 16, 32)
 """Numbers of taps that the filter of the field may have."""

@@ -8,8 +8,8 @@ import struct
 from typing import NamedTuple
 from zlib import crc32
 
-from stommel.onboard.instruments.gnss.novatel.logs import BY_NAME, BY_NUMBER, BY_TYPE, LAYOUTS, Header, Layout, Log
-from stommel.onboard.instruments.gnss.novatel.words import PORT, TIME_STATUS
+from stommel.instruments.gnss.novatel.logs import BY_NAME, BY_NUMBER, BY_TYPE, LAYOUTS, Header, Layout, Log
+from stommel.instruments.gnss.novatel.words import PORT, TIME_STATUS
 
 SYNC = b"\xaa\x44\x12"
 _HEADER = struct.Struct("<3sBHBBHHBBHIIHH")

@@ -4,12 +4,12 @@ import math
 from datetime import date
 from typing import Any
 
-from stommel.onboard.instruments.gnss.fix import Fix, NoFix, Refusal
-from stommel.onboard.instruments.gnss.gps_time import unrolled, utc_of
-from stommel.onboard.instruments.gnss.nmea import KNOT, midnight, number, second_of_day
-from stommel.onboard.instruments.gnss.novatel.codec import Message
-from stommel.onboard.instruments.gnss.novatel.logs import BestPos, BestVel, Time
-from stommel.onboard.instruments.gnss.novatel.words import COMPUTED, SOLUTION
+from stommel.instruments.gnss.fix import Fix, NoFix, Refusal
+from stommel.instruments.gnss.gps_time import unrolled, utc_of
+from stommel.instruments.gnss.nmea import KNOT, midnight, number, second_of_day
+from stommel.instruments.gnss.novatel.codec import Message
+from stommel.instruments.gnss.novatel.logs import BestPos, BestVel, Time
+from stommel.instruments.gnss.novatel.words import COMPUTED, SOLUTION
 
 DAY = 86400.0
 RANGE_ERROR = 5.0

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import NamedTuple
 
-from stommel.onboard.instruments.tcm.components import order_mark
+from stommel.instruments.tcm.components import order_mark
 
 MANUALS: dict[str, tuple[str, ...]] = {
     "1007537": ("std_dev_err", "x_coverage", "y_coverage", "z_coverage", "mag_earth", "mag_hi"),

@@ -5,7 +5,7 @@ import random
 import pytest
 
 from stommel.errors import StommelError
-from stommel.onboard.instruments.radio import Radio, RadioDevice, RadioTruth
+from stommel.instruments.radio import Radio, RadioDevice, RadioTruth
 
 
 def test_bytes_go_through_as_they_are() -> None:

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from stommel.onboard.instruments.settings import require_positive
+from stommel.instruments.settings import require_positive
 
 _BITS_A_BYTE = 10
 """Of a serial port with one start and one stop bit."""

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from novatel_edie import oem
 
-from stommel.onboard.instruments.gnss.gps_time import utc_of, week_and_ms
-from stommel.onboard.instruments.gnss.novatel.codec import (
+from stommel.instruments.gnss.gps_time import utc_of, week_and_ms
+from stommel.instruments.gnss.novatel.codec import (
     SIZES,
     Message,
     from_ascii,
@@ -16,7 +16,7 @@ from stommel.onboard.instruments.gnss.novatel.codec import (
     to_ascii,
     to_binary,
 )
-from stommel.onboard.instruments.gnss.novatel.logs import BestPos, BestVel, Header, Log, Time, no_position
+from stommel.instruments.gnss.novatel.logs import BestPos, BestVel, Header, Log, Time, no_position
 
 BESTPOS = (
     "#BESTPOSA,COM1,0,47.0,FINESTEERING,1803,27504.000,00000000,6145,9603;SOL_COMPUTED,L1_FLOAT,32.81519645735,"
@@ -171,7 +171,7 @@ def test_lines_without_a_right_crc_are_none(line: str) -> None:
 )
 def test_fields_that_make_no_sense_are_none(text: str) -> None:
     """Also under a right CRC."""
-    from stommel.onboard.instruments.gnss.novatel.codec import crc
+    from stommel.instruments.gnss.novatel.codec import crc
 
     assert from_ascii(f"#{text}*{crc(text.encode()):08x}\r\n".encode()) is None
 

@@ -4,8 +4,8 @@ import math
 import struct
 from typing import NamedTuple
 
-from stommel.onboard.instruments.framing import Framer
-from stommel.onboard.instruments.tcm.components import (
+from stommel.instruments.framing import Framer
+from stommel.instruments.tcm.components import (
     CONFIG_CODES,
     KINDS,
     Component,
@@ -15,8 +15,8 @@ from stommel.onboard.instruments.tcm.components import (
     layout,
     order_mark,
 )
-from stommel.onboard.instruments.tcm.frames import MOST_COMPONENTS, Datagram, Id, encoded, look
-from stommel.onboard.instruments.tcm.reading import Vector
+from stommel.instruments.tcm.frames import MOST_COMPONENTS, Datagram, Id, encoded, look
+from stommel.instruments.tcm.reading import Vector
 
 _ALONE = (Component.HEADING, Component.PITCH, Component.ROLL)
 """What it measures until it is told."""

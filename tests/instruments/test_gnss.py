@@ -8,11 +8,11 @@ import pytest
 from pynmeagps import VALCKSUM, VALMSGID, NMEAReader
 
 from stommel.errors import StommelError
-from stommel.onboard.instruments.gnss.device import GnssDevice, GnssTruth
-from stommel.onboard.instruments.gnss.driver import LOGS, GnssDriver, GnssSettings, GnssState
-from stommel.onboard.instruments.gnss.fix import Fix, FixLimits, FixRules, NoFix, Refusal
-from stommel.onboard.instruments.gnss.nmea import angle, sentence
-from stommel.onboard.instruments.gnss.stream import LONGEST_LINE, look
+from stommel.instruments.gnss.device import GnssDevice, GnssTruth
+from stommel.instruments.gnss.driver import LOGS, GnssDriver, GnssSettings, GnssState
+from stommel.instruments.gnss.fix import Fix, FixLimits, FixRules, NoFix, Refusal
+from stommel.instruments.gnss.nmea import angle, sentence
+from stommel.instruments.gnss.stream import LONGEST_LINE, look
 
 UTC = 1790000000.25
 PLACE = GnssTruth(math.radians(30.26), math.radians(-120.12), UTC, True, 0.0, 0.3, -0.4, 1.0, 2.0)

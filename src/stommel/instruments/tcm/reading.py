@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from stommel.onboard.instruments.tcm.components import KINDS, MEASURED, layout
+from stommel.instruments.tcm.components import KINDS, MEASURED, layout
 
 DISTORTED, UNCALIBRATED = 1, 2
 """Bits of the status: the field is beyond +-80 uT on an axis; the compass has no user calibration."""

@@ -3,14 +3,14 @@
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from stommel.onboard.instruments.framing import Framer
-from stommel.onboard.instruments.gnss.fix import Fix, FixLimits, FixRules, NoFix
-from stommel.onboard.instruments.gnss.nmea import READ, believed, kind_of, parsed
-from stommel.onboard.instruments.gnss.novatel.codec import Message, from_ascii, from_binary
-from stommel.onboard.instruments.gnss.positions import NmeaPositions, NovatelPositions
-from stommel.onboard.instruments.gnss.stream import Kind, Piece, look
-from stommel.onboard.instruments.health import Health
-from stommel.onboard.instruments.settings import refuse, require_positive
+from stommel.instruments.framing import Framer
+from stommel.instruments.gnss.fix import Fix, FixLimits, FixRules, NoFix
+from stommel.instruments.gnss.nmea import READ, believed, kind_of, parsed
+from stommel.instruments.gnss.novatel.codec import Message, from_ascii, from_binary
+from stommel.instruments.gnss.positions import NmeaPositions, NovatelPositions
+from stommel.instruments.gnss.stream import Kind, Piece, look
+from stommel.instruments.health import Health
+from stommel.instruments.settings import refuse, require_positive
 
 LOGS: dict[str, tuple[str, ...]] = {
     "novatel_binary": ("TIMEB", "BESTVELB", "BESTPOSB"),

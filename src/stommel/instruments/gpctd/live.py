@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass
 from functools import cached_property
 
-from stommel.onboard.instruments.gpctd.reading import CtdReading, checked
+from stommel.instruments.gpctd.reading import CtdReading, checked
 
 
 @dataclass(frozen=True)
@@ -70,13 +70,9 @@ def live_reading(line: bytes, variant: Variant, t: float) -> CtdReading | None:
     values = {}
     for column, text in zip(variant.columns, match.groups(), strict=True):
         if column.name:
-            value = float("nan") if text.startswith(b"*") else float(text)
-            values[column.name] = value if abs(value) in _NINES else value * column.factor
+            values[column.name] = float(text) * column.factor if b"." in text else float("nan")  # a bare 999 is none
     good, refused = checked(values)
     return CtdReading(t, **good, refused=refused)
-
-
-_NINES = frozenset(float("9" * count) for count in range(3, 7))
 
 
 def live_line(variant: Variant, values: dict[str, float]) -> bytes:

@@ -4,7 +4,7 @@ import re
 from enum import Enum
 from typing import NamedTuple
 
-from stommel.onboard.instruments.gnss.novatel.codec import HEADER_SIZE, SIZES, SYNC, whole
+from stommel.instruments.gnss.novatel.codec import HEADER_SIZE, SIZES, SYNC, whole
 
 
 class Kind(Enum):

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple
 
-from stommel.onboard.instruments.framing import Framer
-from stommel.onboard.instruments.gpctd.live import VARIANTS, live_reading
-from stommel.onboard.instruments.gpctd.reading import CtdReading
-from stommel.onboard.instruments.gpctd.stream import PROMPT, look
-from stommel.onboard.instruments.gpctd.upload import FLUSHED, Cast, cast_of, sample
-from stommel.onboard.instruments.health import Health
-from stommel.onboard.instruments.settings import refuse, require_positive
+from stommel.instruments.framing import Framer
+from stommel.instruments.gpctd.live import VARIANTS, live_reading
+from stommel.instruments.gpctd.reading import CtdReading
+from stommel.instruments.gpctd.stream import PROMPT, look
+from stommel.instruments.gpctd.upload import FLUSHED, Cast, cast_of, sample
+from stommel.instruments.health import Health
+from stommel.instruments.settings import refuse, require_positive
 
 _MOST_CASTS = 1000
 """That are kept of one list."""
@@ -172,11 +172,11 @@ class CtdDriver:
         cast = cast_of(text)
         if cast and len(self.casts) < _MOST_CASTS:
             self.casts[cast.number] = cast
+            self._lined = t
         elif not (cast or text.strip() in ("start", "stop", "UH") or text.startswith("UC")):
             self._refused += 1
             return []
-        self._good += 1
-        self._lined = t
+        self._good += 1  # an echo is understood, and says nothing about samples
         return []
 
     def _end_upload(self, t: float) -> None:

@@ -336,6 +336,8 @@ CASES: dict[str, dict[str, Case]] = {
 }  # fmt: skip
 
 ELSEWHERE = {
+    "sitl campaign": "tests/sitl/test_campaign_command: --output, --runs, --seed, --workers, --scheduler, --restart",
+    "sitl replay": "tests/sitl/test_campaign_command: --seed",
     "study": "tests/studies: --output, --workers, --scheduler, --restart, --plots",
     "ocean show": "tests/ocean: --unit, --bounds, --between, --outside, --outside-time, --climatology, --at-rest",
 }

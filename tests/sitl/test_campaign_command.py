@@ -63,6 +63,7 @@ def test_a_failing_flight_is_written_as_scenarios_and_is_the_exit_status(
     assert "1 flight with faults: 1 failed" in words.out
     assert failed["fewest"][0].split()[0] in words.out
     again = run_here(folder, "sitl", "replay", "campaign/failing/seed_1_fewest.toml", "--json")
+    assert again.status == 0, again.err
     assert again.json["faults"] == failed["fewest"]
     assert again.json["seed"] == 1
 

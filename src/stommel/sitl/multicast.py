@@ -32,8 +32,8 @@ class Multicast(NamedTuple):
         number = os.getpid()
         return cls(f"239.74.{163 + number // 250 % 90}.{1 + number % 250}", _FIRST_PORT + number % _PORTS)
 
-    def open(self) -> CanBus:
-        """Open it.
+    def join(self) -> CanBus:
+        """Join it.
 
         Raises
         ------
@@ -90,7 +90,7 @@ class CoordinatorsBus:
 def works(multicast: Multicast, wait: float = 0.5) -> str:
     """Say why multicast does not work on this machine; nothing if it does."""
     try:
-        with multicast.open() as one, multicast.open() as other:
+        with multicast.join() as one, multicast.join() as other:
             one.send(Frame(0x7FF, b"\x01"))
             until = time.monotonic() + wait
             while time.monotonic() < until:

@@ -45,7 +45,7 @@ def serve(connection: Connection, settings: Settings, multicast: Multicast | Non
     """Be a node until the connection ends; this is the main function of its process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for whom started us, who then ends us
     with ExitStack() as open_things, suppress(EOFError, OSError):
-        bus = None if multicast is None else open_things.enter_context(multicast.open())
+        bus = None if multicast is None else open_things.enter_context(multicast.join())
         step = _stepper(settings)
         connection.send(os.getpid())
         while True:

@@ -142,7 +142,7 @@ class SeparateNodes:
             "acquisition": acquisition_settings(machinery),
         }
         if self._multicast is not None:
-            self._bus = system.bus = CoordinatorsBus(self._multicast.open())
+            self._bus = system.bus = CoordinatorsBus(self._multicast.join())
         for name, of_node in settings.items():
             self.processes[name] = NodeProcess(name, of_node, self._multicast, self._say)
         system.motion = _RemoteMotion(self.processes["motion"])

@@ -337,9 +337,13 @@ CASES: dict[str, dict[str, Case]] = {
 
 ELSEWHERE = {
     "sitl fly": (
-        "tests/sitl/test_sitl_command.py: --log, --output, --seed, --separate-nodes, --speed, --no-live; files as of simulate: "
-        "--plots, --track"
+        "tests/sitl/test_sitl_command.py: --log, --output, --seed, --separate-nodes, --speed, --no-live; "
+        "files as of simulate: --plots, --track"
     ),
+    "sitl stand-in": "tests/sitl/test_real_ports.py: --ports, --channel, --seconds",
+    "vehicle run": "tests/sitl/test_real_ports.py: --mission, --start, --seconds",
+    "sitl campaign": "tests/sitl/test_campaign_command: --output, --runs, --seed, --workers, --scheduler, --restart",
+    "sitl replay": "tests/sitl/test_campaign_command: --seed",
     "study": "tests/studies: --output, --workers, --scheduler, --restart, --plots",
     "ocean show": "tests/ocean: --unit, --bounds, --between, --outside, --outside-time, --climatology, --at-rest",
 }

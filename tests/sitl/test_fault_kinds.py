@@ -361,3 +361,9 @@ def test_a_fault_draws_the_same_when_others_are_taken_away() -> None:
     assert alone[0] == alone[1]
     first, second = Acting(fault("frames_lost", "all", 0.5), 7), Acting(fault("frames_lost", "all", 0.5, at=1.0), 7)
     assert [first.strikes() for _ in range(40)] != [second.strikes() for _ in range(40)]
+
+
+def test_a_node_tells_too_much_current_whatever_kind_of_number_it_is(trial: Mission) -> None:
+    """A campaign's seed 63: NumPy's numbers of the plant became a truth that no frame can say."""
+    system = flown(trial, fault("current_spike", "pump", np.float64(30.0)), 20)
+    assert system.coordinator.perception.watch.reports(MOTION, "OverCurrent")

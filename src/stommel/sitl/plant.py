@@ -187,5 +187,5 @@ class Plant:
         on = (max(drives.pump, drives.valve), abs(drives.mass), abs(drives.steering))
         used = (energy[PUMP], energy[PITCH_DRIVE], energy[STEERING])
         return Currents(
-            *(joules / (voltage * share) if share > 0.0 else 0.0 for joules, share in zip(used, on, strict=True))
+            *(float(joules / (voltage * share)) if share > 0.0 else 0.0 for joules, share in zip(used, on, strict=True))
         )

@@ -213,7 +213,7 @@ class Axis:
             effort.fail(t)
 
     def _watch_current(self, t: float, current: float, running: bool) -> None:
-        too_much = current > self.limits.current
+        too_much = bool(current > self.limits.current)  # NumPy's own truth is no number for a frame
         if not (running and too_much):
             self._current_untrue = too_much
         elif not self._current_untrue:

@@ -136,7 +136,7 @@ class NodeLink:
         else:
             del self._faults[code]
         message = f"{self.name}Emergency"
-        self.say(message, code=value_named(message, "code", code), active=active, detail=detail)
+        self.say(message, code=value_named(message, "code", code), active=bool(active), detail=int(detail))
 
     def say(self, message: str, **values: float) -> None:
         """Put a message among those that the step sends."""

@@ -336,10 +336,7 @@ CASES: dict[str, dict[str, Case]] = {
 }  # fmt: skip
 
 ELSEWHERE = {
-    "sitl fly": (
-        "tests/sitl/test_sitl_command.py: --log, --output, --seed, --separate-nodes, --speed, --no-live; files as of simulate: "
-        "--plots, --track"
-    ),
+    "sitl fly": "tests/sitl: --log, --output, --plots, --track, --seed, --separate-nodes, --speed, --no-live",
     "study": "tests/studies: --output, --workers, --scheduler, --restart, --plots",
     "ocean show": "tests/ocean: --unit, --bounds, --between, --outside, --outside-time, --climatology, --at-rest",
 }

@@ -337,6 +337,10 @@ CASES: dict[str, dict[str, Case]] = {
 
 ELSEWHERE = {
     "sitl fly": "tests/sitl: --log, --output, --plots, --track, --seed, --separate-nodes, --speed, --no-live",
+    "sitl stand-in": "tests/sitl/test_real_ports.py: --ports, --channel, --seconds",
+    "vehicle run": "tests/sitl/test_real_ports.py: --mission, --start, --seconds",
+    "sitl campaign": "tests/sitl/test_campaign_command: --output, --runs, --seed, --workers, --scheduler, --restart",
+    "sitl replay": "tests/sitl/test_campaign_command: --seed",
     "study": "tests/studies: --output, --workers, --scheduler, --restart, --plots",
     "ocean show": "tests/ocean: --unit, --bounds, --between, --outside, --outside-time, --climatology, --at-rest",
 }

@@ -707,6 +707,8 @@ ALL = [
 ELSEWHERE = {
     "derivative": "prints JSON always",
     "study": "tests/studies/test_sweeps and test_running hold its tables against its statistics",
+    "sitl campaign": "tests/sitl/test_campaign_command, with sitl replay",
+    "sitl replay": "as sitl campaign",
     "vehicle show": "below",
     "vehicle new": "prints a path",
     "vehicle log": "tests/onboard/coordination/test_log_command holds what it shows against what was logged",

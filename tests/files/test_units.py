@@ -34,6 +34,11 @@ PURE = {
     # in the unit of another key, or of a column
     "at_least", "at_most", "from_", "to", "mean", "median", "standard_deviation", "log_standard_deviation", "values",
     "value", "range", "parameters", "open_valves", "changes",
+    # in the unit of the table that they are keys of: actuator_ut and decide_every_s
+    "pump", "valve", "pitch_drive", "steering",
+    "surface", "descent", "inflection", "ascent", "recovery", "drift",
+    # of the vehicle's software: a number by which it is called, a count, shares
+    "vehicle_id", "samples", "reserve", "speed_error", "correction",
 }  # fmt: skip
 """Numbers that have no unit of their own."""
 

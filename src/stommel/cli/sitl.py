@@ -22,6 +22,7 @@ from stommel.files.units import counted
 if TYPE_CHECKING:
     from stommel.simulation.flight import Flown
     from stommel.simulation.scenario.mission import Mission
+    from stommel.sitl.faults.injector import Injector
     from stommel.sitl.flight import Watcher
     from stommel.sitl.real_time import Pace
     from stommel.sitl.system import System
@@ -100,13 +101,16 @@ def fly(
     refuse_same("--output", output, plots)
     refuse_same("--track", track, plots)
     refuse_same("--log", log, plots)
-    from stommel.simulation.scenario.loading import load_mission
     from stommel.simulation.scenario.shipped import mission_path
+    from stommel.sitl.faults.injector import Injector
+    from stommel.sitl.scenario import load_scenario
 
-    mission = load_mission(mission_path(scenario))
+    mission, faults = load_scenario(mission_path(scenario))
     if seed is not None:
         mission = with_seed(mission, seed)
-    flown, about = _flown(mission, log, times, separate_nodes, live)
+    if faults and separate_nodes:
+        raise typer.BadParameter("a scenario with faults flies in one process", param_hint="--separate-nodes")
+    flown, about = _flown(mission, Injector(faults, mission.scenario.seed), log, times, separate_nodes, live)
     row = described(flown, None) | about
     with writing("while writing; the files that are there are whole"):
         written = write(flown, output, plots, track)
@@ -114,7 +118,7 @@ def fly(
 
 
 def _flown(
-    mission: "Mission", log: Path | None, speed: float | None, separate: bool, live: bool | None
+    mission: "Mission", inject: "Injector", log: Path | None, speed: float | None, separate: bool, live: bool | None
 ) -> tuple["Flown", dict[str, Any]]:
     """Fly, and say what the software was doing at the end."""
     from stommel.sitl.flight import fly as fly_in_the_loop
@@ -124,7 +128,7 @@ def _flown(
     from stommel.sitl.system import System
 
     logbook = None if log is None else logbook_in(log, mission)
-    system = System(mission, logbook)
+    system = System(mission, logbook, inject)
     pace = None if speed is None else Pace(speed)
     with ExitStack() as around, _told(system, log):
         stop = around.enter_context(Interruption())

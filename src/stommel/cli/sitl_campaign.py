@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -15,7 +15,6 @@ from stommel.cli.status import INTERRUPTED
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
-    from stommel.sitl.campaign.replay import Replay
     from stommel.sitl.campaign.run import Campaign
 
 _MOST = 1_000_000
@@ -123,11 +122,10 @@ def replay(
     from stommel.sitl.campaign.replay import replay as again
     from stommel.sitl.campaign.run import TRIAL
 
-    finish(again(TRIAL if scenario is None else scenario, seed), None, as_json, _show_replay)
+    finish(again(TRIAL if scenario is None else scenario, seed).as_json(), None, as_json, _show_replay)
 
 
-def _show_replay(done: "Replay") -> None:
-    row = done.as_json()
+def _show_replay(row: dict[str, Any]) -> None:
     values = {f"fault {k}": words for k, words in enumerate(row["faults"], 1)}
     title = f"Seed {row['seed']}: {row['verdict']}"
     show_values(title, {**values, "why": row["why"] or "-", "ending": row["ending"], "sha256": row["sha256"]})

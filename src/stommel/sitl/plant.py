@@ -169,7 +169,7 @@ class Plant:
     @property
     def oil(self) -> float:
         """Oil outside, as ballast volume [m3]."""
-        return float(self.setup.x[V_B] + self.setup.world.leaked - self.setup.world.dropped)
+        return float(self.setup.x[V_B] + self.setup.world["leaked"] - self.setup.world["dropped"])
 
     def replace_hull(self, hull: Hull) -> None:
         """Let the hull be another one from now on."""

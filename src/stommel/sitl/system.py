@@ -95,7 +95,7 @@ class System:
         """What the motion node told the power stages last."""
         self.restarts = dict.fromkeys(NODES, 0)
         """How often each computer has started anew."""
-        self._kept = MemoryDisk()
+        self._kept = MemoryDisk() if self.inject.disk is None else self.inject.disk
         self.coordinator = self._started_coordinator(0.0, logbook)
         self.coordinator.request(OperatorRequests(start=True))
 

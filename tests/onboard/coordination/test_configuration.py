@@ -29,7 +29,7 @@ from stommel.simulation.scenario.shipped import mission_path
 from stommel.simulation.setup import prepare
 from stommel.sitl.equipment import coordinator_settings
 from stommel.vehicle import load_vehicle
-from stommel.vehicle.fingerprint import fingerprint
+from stommel.vehicle.fingerprint import untrimmed_fingerprint
 from tests.support.command import Command, run_here
 from tests.support.configuration import CONFIGURATION
 from tests.support.mutations import mutations
@@ -55,7 +55,7 @@ def written(folder: Path, text: str) -> Path:
 def test_limits_are_those_of_the_vehicle_s_file(text: str, tmp_path: Path) -> None:
     limits = read_configuration(written(tmp_path, text)).file.limits
     actuators, battery, hull = ZJU.description.actuators, ZJU.description.battery, ZJU.description.hull
-    assert limits.vehicle_sha256 == fingerprint(ZJU)
+    assert limits.vehicle_sha256 == untrimmed_fingerprint(ZJU)
     assert actuators.buoyancy is not None
     assert limits.ballast_ml == pytest.approx(actuators.buoyancy.range_ml)
     assert actuators.moving_mass is not None

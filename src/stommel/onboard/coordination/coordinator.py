@@ -40,6 +40,10 @@ CTD_PATIENCE = 10.0
 """Time beyond two intervals without a sample, after which the payload is silent [s]."""
 
 
+LATEST_TIME = 1e9
+"""The greatest time that Sync can say [s]."""
+
+
 class Coordinator:
     """The vehicle's coordination software.
 
@@ -218,7 +222,7 @@ class Coordinator:
 
     def _keep_alive(self, t: float) -> list[Frame]:
         """Frames of a controller that sleeps on: the nodes hold what they were told."""
-        return [self._encoder.frame("Sync", vehicle_time=t), *self._heartbeat.poll(t, NodeState.Operational)]
+        return [self._encoder.frame("Sync", vehicle_time=_sayable(t)), *self._heartbeat.poll(t, NodeState.Operational)]
 
     def _say(self, t: float, state: ExecutiveState, commands: Commands) -> list[Frame]:
         """Frames to the nodes, the most urgent first."""
@@ -227,7 +231,7 @@ class Coordinator:
         if state.state is State.ABORT:
             reason = value_named("Abort", "reason", state.reason)
             frames.append(frame("Abort", reason=reason, drop_weight=state.drop_weight))
-        frames.append(frame("Sync", vehicle_time=t))
+        frames.append(frame("Sync", vehicle_time=_sayable(t)))
         frames.append(
             frame("MotionSetpoint", ballast=commands.V_b, moving_mass=commands.r_px, steering=commands.steering)
         )
@@ -252,6 +256,11 @@ class Coordinator:
         if commands.radio:
             out[RADIO] = self.radio.poll(t)
         return out
+
+
+def _sayable(t: float) -> float:
+    """A time as a frame can say it [s]: a clock that is wrong must not keep the software from speaking."""
+    return min(max(t, 0.0), LATEST_TIME)
 
 
 def _length(vector: tuple[float, float, float]) -> float:

@@ -1,5 +1,6 @@
 """What a worker of a campaign is sent, and one run as it flies it."""
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -19,7 +20,7 @@ _LATEST = 300.0
 """How long before the end of the mission's time the last fault begins [s]."""
 
 _missions: dict[str, Mission] = {}
-"""The mission of this process."""
+"""The mission of this process, by its document and folder."""
 
 
 @dataclass(frozen=True)
@@ -40,10 +41,11 @@ class CampaignKit:
     @property
     def mission(self) -> Mission:
         """The mission; it is loaded once in each process."""
-        if self.origin not in _missions:
+        key = json.dumps([self.document, str(self.folder)], sort_keys=True, default=str)
+        if key not in _missions:
             _missions.clear()
-            _missions[self.origin] = mission_from(self.document, self.origin, self.folder)
-        return _missions[self.origin]
+            _missions[key] = mission_from(self.document, self.origin, self.folder)
+        return _missions[key]
 
     def faults_of(self, seed: int) -> tuple[Fault, ...]:
         """Faults of the flight with this seed."""

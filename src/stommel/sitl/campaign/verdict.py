@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from stommel.messages.database import COORDINATOR, MOTION
 from stommel.onboard.coordination.executive import State
+from stommel.onboard.coordination.logbook.file_names import log_name
 from stommel.onboard.coordination.logbook.reader import read_log
 from stommel.onboard.execution.motion_node import BLOWING
 from stommel.simulation.mission_loop import LOST, NOT_FINITE
@@ -74,7 +75,7 @@ def ending_of(system: System) -> str:
         words = "coordinator without power"
     return (
         f"{plant.ending}, at {plant.depth:.1f} m; {words}; motion node {mode.value if mode else 'elsewhere'}; "
-        f"oil {1e6 * plant.oil:.0f} ml, leaked {1e6 * float(plant.setup.world.leaked):.0f} ml, "
+        f"oil {1e6 * plant.oil:.0f} ml, leaked {1e6 * float(plant.setup.world['leaked']):.0f} ml, "
         f"{1e6 * plant.spare(plant.depth):+.0f} ml to spare"
     )
 
@@ -94,10 +95,14 @@ def wrong_end(system: System) -> str:
 
 
 def wrong_log(disk: MemoryDisk, committed: int) -> str:
-    """What is wrong with the log; empty if each record that was committed reads back. `committed` counts them."""
+    """What is wrong with the log; empty if each record that was committed reads back. `committed` counts them.
+
+    A full disk makes the logbook remove files that matter less; their records count as they were.
+    """
     found = 0
-    for name in sorted(disk.files):
-        content = disk.files[name]
+    for name, content in (*disk.files.items(), *disk.removed):
+        if log_name(name) is None:
+            continue
         read = read_log(bytes(content.data), name)
         if read.offset < content.synced:
             return f"log {name}: {read.verdict}, but {content.synced} bytes were committed"

@@ -20,6 +20,8 @@ class MemoryDisk:
 
     def __init__(self) -> None:
         self.files: dict[str, Content] = {}
+        self.removed: list[tuple[str, Content]] = []
+        """Files that were removed, with their names."""
         self.full = False
         """Whether it takes nothing."""
 
@@ -53,7 +55,7 @@ class MemoryDisk:
 
     def remove(self, name: str) -> None:
         """Remove a file."""
-        del self.files[name]
+        self.removed.append((name, self.files.pop(name)))
 
     def refuse_if_full(self) -> None:
         """Raise what a full disk says."""

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from stommel.compilation import plain
 from stommel.control.commands import Commands
 from stommel.control.decision import decide
 from stommel.control.orders import Orders
@@ -129,7 +128,7 @@ class Injector:
         """Return the decision that sometimes ends in an exception; None where none does."""
         if not any(one.kind == "decision_exception" for one in self._all):
             return None
-        sound = plain(decide)
+        sound = decide
 
         def decision(memory: np.record, orders: Orders, readings: Readings, t: float) -> Commands:
             if any(one.kind == "decision_exception" and one.strikes() for one in self.acting):

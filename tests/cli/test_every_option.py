@@ -336,10 +336,7 @@ CASES: dict[str, dict[str, Case]] = {
 }  # fmt: skip
 
 ELSEWHERE = {
-    "sitl fly": (
-        "tests/sitl/test_sitl_command.py: --log, --output, --seed, --separate-nodes, --speed, --no-live; "
-        "files as of simulate: --plots, --track"
-    ),
+    "sitl fly": "tests/sitl: --log, --output, --plots, --track, --seed, --separate-nodes, --speed, --no-live",
     "sitl stand-in": "tests/sitl/test_real_ports.py: --ports, --channel, --seconds",
     "vehicle run": "tests/sitl/test_real_ports.py: --mission, --start, --seconds",
     "sitl campaign": "tests/sitl/test_campaign_command: --output, --runs, --seed, --workers, --scheduler, --restart",

@@ -30,9 +30,12 @@ def short(tmp_path: Path) -> Path:
 
 def test_it_writes_log_and_netcdf_like_simulate(stommel: Command, short: Path, tmp_path: Path) -> None:
     log, nc = tmp_path / "log", tmp_path / "a.nc"
-    found = stommel("sitl", short, "--log", log, "--output", nc, "--json")
+    files = ("--output", nc, "--track", tmp_path / "t.kml", "--plots", tmp_path / "p")
+    found = stommel("sitl", short, "--log", log, *files, "--json")
     assert found.status == 0
-    assert found.json["written"] == [str(nc)]
+    assert found.json["written"][:2] == [str(nc), str(tmp_path / "t.kml")]
+    assert any(path.startswith(str(tmp_path / "p")) for path in found.json["written"][2:])
+    assert all(Path(path).stat().st_size for path in found.json["written"])
     assert found.json["state"] == "mission: descent"
     assert (found.json["alarms"], found.json["frames_lost"], found.json["frames_rejected"]) == ([], 0, 0)
     assert 0.0 < found.json["bus_load_share"] < 0.02
@@ -104,6 +107,17 @@ def test_ctrl_c_leaves_a_whole_log_and_says_so(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["log"]
     for path in (tmp_path / "log").iterdir():
         assert read_log(path.read_bytes(), path.name).status == "whole"
+
+
+def test_real_time_takes_its_time(stommel: Command, tmp_path: Path) -> None:
+    path = tmp_path / "shorter.toml"
+    text = Path(MISSION).read_text(encoding="utf-8")
+    path.write_text(text.replace("duration_days = 0.0125", f"duration_days = {40 / 86400:.8f}"), encoding="utf-8")
+    began = time.monotonic()
+    found = stommel("sitl", path, "--speed", "20", "--no-live", "--json")
+    assert found.status == 0
+    assert time.monotonic() - began >= 39 / 20
+    assert found.json["fell_behind_s"] >= 0.0
 
 
 def test_the_live_view_goes_to_the_error_stream(stommel: Command, short: Path) -> None:

@@ -43,20 +43,22 @@ def run(
     """
     os.environ.setdefault("STOMMEL_COMPILE", "0")  # a small board has no compiler, and a vehicle flies what it tested
     from stommel.onboard.coordination.config import read_configuration
+    from stommel.onboard.running.folders import claimed
     from stommel.onboard.running.ports import open_ports
     from stommel.onboard.running.vehicle_software import VehicleSoftware
 
     settings = read_configuration(configuration)
     ports = open_ports(settings, str(configuration))
     try:
-        software = VehicleSoftware(settings, ports, lambda words: typer.echo(words, err=True))
-        if mission is not None:
-            _load(software.missions, mission)
-            software.take_mission(software.clock.monotonic())
-        if start:
-            software.start()
-        with until_asked() as asked:
-            figures = software.run(LONGEST if seconds is None else seconds, asked)
+        with claimed(settings):
+            software = VehicleSoftware(settings, ports, lambda words: typer.echo(words, err=True))
+            if mission is not None:
+                _load(software.missions, mission)
+                software.take_mission(software.clock.monotonic())
+            if start:
+                software.start()
+            with until_asked() as asked:
+                figures = software.run(LONGEST if seconds is None else seconds, asked)
     finally:
         ports.close()
     finish(_answer(figures), None, as_json, _show)

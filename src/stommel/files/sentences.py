@@ -25,10 +25,13 @@ _RANGES = {
 }
 
 
+PRINTABLE = r"^[^\x00-\x1f\x7f]*$"
+"""A name without control characters: no system opens the first of them, and the others are not seen."""
 _PATTERNS = {
     r"^[A-Za-z]\w*$": "must begin with a letter, and go on with letters, digits and _",
     "^[A-Za-z][A-Za-z0-9_-]*$": "must begin with a letter, and go on with letters, digits, _ and -",
     "^[0-9a-f]{64}$": "must be a SHA-256 digest, 64 digits and letters a to f",
+    PRINTABLE: "must not have control characters",
 }
 """What each pattern of a text means."""
 

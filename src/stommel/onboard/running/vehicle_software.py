@@ -3,9 +3,7 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from pathlib import Path
 
-from stommel.errors import StommelError
 from stommel.messages.database import database, database_hash
 from stommel.messages.frames import Frame
 from stommel.onboard.coordination.config import Configuration
@@ -14,8 +12,8 @@ from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook
 from stommel.onboard.coordination.situation import OperatorRequests
 from stommel.onboard.coordination.stores.continuity import ContinuityStore
-from stommel.onboard.coordination.stores.folder import FolderStorage
 from stommel.onboard.coordination.stores.missions import MissionStore
+from stommel.onboard.running.folders import storage_of
 from stommel.onboard.running.ports import RealPorts
 from stommel.version import __version__
 
@@ -88,10 +86,10 @@ class VehicleSoftware:
         self._alarms: tuple[str, ...] = ()
         database()  # read now, not in the first decision
         file, t = configuration.file, self.clock.monotonic()
-        self.missions = MissionStore(_folder(configuration, file.missions, "missions"), file.limits)
-        self.kept = ContinuityStore(_folder(configuration, file.parameters, "parameters"))
+        self.missions = MissionStore(storage_of(configuration, "missions"), file.limits)
+        self.kept = ContinuityStore(storage_of(configuration, "parameters"))
         self.logbook = Logbook(
-            _folder(configuration, file.log.folder, "log.folder"),
+            storage_of(configuration, "log.folder"),
             configuration.log,
             LogIdentity(__version__, database_hash(), file.vehicle, self.clock.utc()),
             t,
@@ -167,11 +165,3 @@ class VehicleSoftware:
     def _tell(self, t: float, code: str, words: str) -> None:
         self.logbook.event(t, code, words)
         self._say(words)
-
-
-def _folder(configuration: Configuration, name: str, key: str) -> FolderStorage:
-    path: Path = configuration.path(name)
-    try:
-        return FolderStorage(path)
-    except OSError as error:
-        raise StommelError(f"{key} = {name!r}: cannot be used: {error.strerror or error}") from None

@@ -34,6 +34,8 @@ class Configuration:
     """Of the compass; the identity where the file names none."""
     adapter: Adapter
     """Of the CAN bus."""
+    origin: str = "configuration"
+    """Path of the file, for messages."""
 
     def path(self, name: str) -> Path:
         """Path of what the file names."""
@@ -150,7 +152,7 @@ def read_configuration(path: str | Path) -> Configuration:
         raise FileError([Problem(str(path), "can", str(error))]) from None
     name = file.compass.calibration
     calibration = CompassCalibration() if name is None else _calibration(str(path), folder / name)
-    return Configuration(file, folder, calibration, adapter)
+    return Configuration(file, folder, calibration, adapter, str(path))
 
 
 def _calibration(origin: str, path: Path) -> CompassCalibration:

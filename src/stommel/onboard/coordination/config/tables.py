@@ -7,10 +7,11 @@ from pydantic import Field, model_validator
 from stommel.files.fields import Name, Table
 from stommel.files.kinds import Flag, Format
 from stommel.files.ranges import Hours, Position, Seconds, Share, Voltage, between
+from stommel.files.sentences import PRINTABLE
 from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits
 
-FileName = Annotated[str, Field(min_length=1, max_length=300)]
-PortName = Annotated[str, Field(min_length=1, max_length=200)]
+FileName = Annotated[str, Field(min_length=1, max_length=300, pattern=PRINTABLE)]
+PortName = Annotated[str, Field(min_length=1, max_length=200, pattern=PRINTABLE)]
 Baud = Literal[1200, 2400, 4800, 9600, 19_200, 38_400, 57_600, 115_200, 230_400, 460_800, 921_600]
 Interval = Annotated[float, between(0.1, 3600)]
 DecisionInterval = Annotated[float, between(0.1, 60)]

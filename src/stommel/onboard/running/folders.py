@@ -1,0 +1,71 @@
+"""The folders that a vehicle's software writes in: one program at a time has them."""
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+from stommel.errors import FileError, Problem
+from stommel.onboard.coordination.config import Configuration
+from stommel.onboard.coordination.stores.folder import FolderStorage
+
+FOLDERS = ("missions", "parameters", "log.folder")
+"""Keys of the configuration that name one."""
+
+
+def storage_of(configuration: Configuration, key: str) -> FolderStorage:
+    """Return the folder that a key names, made if it is not there.
+
+    Raises
+    ------
+    FileError
+        It cannot be.
+    """
+    try:
+        return FolderStorage(_path(configuration, key))
+    except OSError as error:
+        raise _refused(configuration, key, f"cannot be used: {error.strerror or error}") from None
+
+
+@contextmanager
+def claimed(configuration: Configuration) -> Iterator[None]:
+    """Keep other programs out of all folders; a process that dies gives them back.
+
+    Raises
+    ------
+    FileError
+        Another program has one, or one cannot be made.
+    """
+    by_path: dict[Path, str] = {}
+    for key in FOLDERS:
+        by_path.setdefault(_path(configuration, key).resolve(), key)
+    with ExitStack() as held:
+        for key in by_path.values():
+            storage_of(configuration, key)
+            if sys.platform != "win32":
+                _lock(configuration, key, held)
+        yield
+
+
+def _lock(configuration: Configuration, key: str, held: ExitStack) -> None:
+    import fcntl  # noqa: PLC0415 - not on Windows
+
+    descriptor = os.open(_path(configuration, key), os.O_RDONLY)
+    held.callback(os.close, descriptor)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise _refused(configuration, key, "another `stommel vehicle run` is writing there") from None
+    except OSError:
+        return  # not every file system has locks
+
+
+def _path(configuration: Configuration, key: str) -> Path:
+    file = configuration.file
+    return configuration.path(file.log.folder if key == "log.folder" else getattr(file, key))
+
+
+def _refused(configuration: Configuration, key: str, why: str) -> FileError:
+    name = configuration.file.log.folder if key == "log.folder" else getattr(configuration.file, key)
+    return FileError([Problem(configuration.origin, key, f"{key} = {name!r}: {why}")])

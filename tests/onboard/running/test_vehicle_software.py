@@ -1,4 +1,4 @@
-"""The edge of the vehicle's software, on ports and a clock of the test. Oracle: what went through them in each second."""
+"""The edge of the vehicle's software, on ports and a clock of the test. Oracle: what goes through them in a second."""
 
 from dataclasses import dataclass, field
 from pathlib import Path

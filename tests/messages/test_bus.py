@@ -13,7 +13,7 @@ from typing import Any
 import can
 import pytest
 
-from stommel.messages.adapters import Adapter, BusError, open_adapter
+from stommel.messages.adapters import Adapter, BusError, multicast_of, open_adapter
 from stommel.messages.bus import MOST, WAIT, CanBus
 from stommel.messages.frames import Frame
 
@@ -212,7 +212,7 @@ def test_two_buses_within_one_program() -> None:
 
 ECHO = """
 import sys, time
-from stommel.messages.adapters import Adapter
+from stommel.messages.adapters import multicast_of, Adapter
 from stommel.messages.bus import CanBus
 from stommel.messages.frames import Frame
 with CanBus(Adapter("udp_multicast", sys.argv[1])) as bus:
@@ -291,6 +291,8 @@ def test_a_bus_over_loopback_survives_bytes_that_are_no_frame() -> None:
         (("socketcan", "can0", 500000), "can.bitrate = 500000: leave it out; it is set with: ip link set can0"),
         (("virtual", "x", 500000), "can.bitrate = 500000: leave it out; virtual has none"),
         (("udp_multicast", "10.0.0.1"), "can.channel = '10.0.0.1': must be a multicast address, 224.0.0.0 to"),
+        (("udp_multicast", "239.1.1.1:99"), "can.channel = '239.1.1.1:99': must be a multicast address"),
+        (("udp_multicast", "239.1.1.1:"), "can.channel = '239.1.1.1:': must be a multicast address"),
         (("udp_multicast", "nowhere"), "can.channel = 'nowhere': must be a multicast address"),
         (("virtual", "a\nb"), "can.channel = 'a\\nb': must be a name"),
     ],
@@ -328,3 +330,15 @@ def test_what_a_driver_says_becomes_a_sentence(monkeypatch: pytest.MonkeyPatch, 
     with pytest.raises(BusError) as refused:
         open_adapter(Adapter("virtual", "fake"))
     assert says in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("channel", "found"),
+    [
+        ("239.74.163.2", ("239.74.163.2", None)), ("239.74.163.2:43200", ("239.74.163.2", 43200)),
+        ("ff15::1", ("ff15::1", None)), ("[ff15::1]:43200", ("ff15::1", 43200)), ("10.0.0.1:43200", None),
+        ("239.74.163.2:70000", None), ("239.74.163.2:x", None), ("", None),
+    ],
+)  # fmt: skip
+def test_a_multicast_channel_may_name_its_port(channel: str, found: tuple[str, int | None] | None) -> None:
+    assert multicast_of(channel) == found

@@ -61,8 +61,10 @@ class Adapter:
         if not self.channel.isprintable() or len(self.channel) > 200:
             shown = one_line(repr(self.channel), 80)
             raise BusError(f"{self.keys}channel = {shown}: must be a name of up to 200 letters")
-        if self.interface == "udp_multicast" and not _is_multicast(self.channel):
-            allowed = "a multicast address, 224.0.0.0 to 239.255.255.255 or ff00::/8"
+        if self.interface == "udp_multicast" and multicast_of(self.channel) is None:
+            allowed = (
+                "a multicast address, 224.0.0.0 to 239.255.255.255 or ff00::/8, with or without :PORT"
+            )
             raise BusError(f"{self.keys}channel = {self.channel!r}: must be {allowed}")
         self._check_bitrate()
 
@@ -81,11 +83,23 @@ class Adapter:
         return f"{self.interface} {self.channel}"
 
 
-def _is_multicast(channel: str) -> bool:
+def multicast_of(channel: str) -> tuple[str, int | None] | None:
+    """Address and port of `ADDRESS` or `ADDRESS:PORT` (IPv6: `[ADDRESS]:PORT`); None where it is no multicast.
+
+    Two buses of one machine need two ports: the system gives datagrams of any group to every program on the port.
+    """
+    address, colon, port = channel.rpartition(":")
+    if not colon or (":" in address and not address.endswith("]")):
+        address, port = channel, ""  # no port, or an IPv6 address
+    elif not port:
+        return None
     try:
-        return ip_address(channel).is_multicast
+        found = ip_address(address.strip("[]"))
     except ValueError:
-        return False
+        return None
+    if not found.is_multicast or (port and not (port.isascii() and port.isdigit() and 1024 <= int(port) <= 65535)):
+        return None
+    return str(found), int(port) if port else None
 
 
 def open_adapter(adapter: Adapter) -> "BusABC":
@@ -101,8 +115,10 @@ def open_adapter(adapter: Adapter) -> "BusABC":
     options: dict[str, Any] = {"interface": adapter.interface, "channel": adapter.channel}
     if adapter.bitrate is not None:
         options["bitrate"] = adapter.bitrate
-    if adapter.interface == "udp_multicast":
-        options["fd"] = False
+    multicast = multicast_of(adapter.channel) if adapter.interface == "udp_multicast" else None
+    if multicast is not None:
+        address, port = multicast
+        options |= {"channel": address, "fd": False} | ({} if port is None else {"port": port})
     try:
         return Bus(ignore_config=True, **options)
     except Exception as error:  # drivers' errors come as they are (hardbyte/python-can#907)

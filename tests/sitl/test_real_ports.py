@@ -23,7 +23,7 @@ from stommel.simulation.scenario.shipped import mission_path
 from stommel.sitl.stand_in import StandIn, Terminals
 from tests.support.command import PROGRAM, run_here
 
-SECONDS = 20
+SECONDS = 40
 CHANNEL = f"239.74.163.{1 + os.getpid() % 250}"
 
 

@@ -91,6 +91,7 @@ def _answer(figures: "Figures") -> dict[str, Any]:
         "mean_step_ms": figures.mean_step_ms,
         "longest_step_ms": figures.longest_step_ms,
         "late_steps": figures.late,
+        "failed_steps": figures.exceptions,
     }
 
 
@@ -101,5 +102,6 @@ def _show(row: dict[str, Any]) -> None:
             "decisions": str(row["decisions"]),
             "one decision": f"{row['mean_step_ms']:.1f} ms (mean), {row['longest_step_ms']:.1f} ms at most",
             "late": str(row["late_steps"]),
+            "failed": str(row["failed_steps"]),
         },
     )

@@ -838,8 +838,8 @@ def test_every_verb_is_looked_at() -> None:
     [
         (
             "vehicle_run",
-            {"decisions": 3599, "mean_step_ms": 1.26, "longest_step_ms": 8.74, "late_steps": 2},
-            {"decisions": 3599, "one decision": [1.3, 8.7], "late": 2},
+            {"decisions": 3599, "mean_step_ms": 1.26, "longest_step_ms": 8.74, "late_steps": 2, "failed_steps": 1},
+            {"decisions": 3599, "one decision": [1.3, 8.7], "late": 2, "failed": 1},
         ),
         (
             "sitl_stand_in",

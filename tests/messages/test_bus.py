@@ -8,6 +8,7 @@ import sys
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from typing import Any
 
 import can
@@ -253,6 +254,25 @@ def test_two_programs_over_loopback() -> None:
         assert found == expected  # and nothing of our own
         bus.send(Frame(0x7FF, b""))
         assert other.wait(10) == 0
+
+
+@pytest.mark.parametrize(("ours", "others"), [("239.74.163.79", "239.74.163.80"), ("ff05::4a79", "ff05::4a80")])
+def test_buses_at_two_addresses_of_one_machine_do_not_hear_each_other(ours: str, others: str) -> None:
+    """Two vehicles on one bench: what one is told must not move the other. All have python-can's one port."""
+    with ExitStack() as opened:
+        try:
+            here, there, beside = (
+                opened.enter_context(CanBus(Adapter("udp_multicast", one))) for one in (ours, ours, others)
+            )
+        except BusError as error:
+            pytest.skip(f"this kernel refuses multicast: {error}")
+        here.send(FRAME)
+        if not within(2.0, lambda: FRAME in there.receive()):
+            pytest.skip("this kernel carries no multicast between programs")
+        beside.send(FRAME)  # its own other end is not there; time enough that all has come
+        time.sleep(0.1)
+        assert FRAME not in beside.receive()
+        assert FRAME not in there.receive()
 
 
 def test_a_bus_over_loopback_survives_bytes_that_are_no_frame() -> None:

@@ -26,7 +26,7 @@ def run(
     mission: Annotated[
         Path | None,
         typer.Option(
-            "--mission", metavar="FILE", help="Orders to take first (`stommel orders`), if they fit the vehicle."
+            "--mission", metavar="ORDERS.toml", help="Orders to take first (`stommel orders`), if they fit the vehicle."
         ),
     ] = None,
     start: Annotated[

@@ -1,7 +1,11 @@
 """Which CAN adapter, by configuration, and what is said where it cannot be opened."""
 
 import errno
+import os
+import socket
+import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from ipaddress import ip_address
 from types import MappingProxyType
@@ -23,6 +27,8 @@ INTERFACES = {
 DEFAULT_CHANNELS: Mapping[str, str] = MappingProxyType(
     {"socketcan": "can0", "slcan": "/dev/ttyACM0", "udp_multicast": "239.74.163.2", "virtual": "vehicle"}
 )
+_IP_MULTICAST_ALL, _IPV6_MULTICAST_ALL = 49, 29
+"""Of Linux (linux/in.h, linux/in6.h); Python has no names for them."""
 BITRATES = (10_000, 20_000, 50_000, 100_000, 125_000, 250_000, 500_000, 750_000, 1_000_000)
 """Of the slcan protocol [bit/s]."""
 
@@ -120,9 +126,27 @@ def open_adapter(adapter: Adapter) -> "BusABC":
         address, port = multicast
         options |= {"channel": address, "fd": False} | ({} if port is None else {"port": port})
     try:
-        return Bus(ignore_config=True, **options)
+        bus = Bus(ignore_config=True, **options)
+        if adapter.interface == "udp_multicast":
+            hear_own_address_only(bus)
     except Exception as error:  # drivers' errors come as they are (hardbyte/python-can#907)
         raise BusError(_objection(adapter, error)) from error
+    return bus
+
+
+def hear_own_address_only(bus: "BusABC") -> None:
+    """Keep a multicast bus from hearing the buses of other programs on this machine, which have other addresses.
+
+    By default Linux hands a socket what comes to any address that any program has joined (ip(7), IP_MULTICAST_ALL).
+    """
+    if sys.platform != "linux":
+        return
+    # the family is that of the descriptor; a kernel that has no such option goes on as it is
+    with socket.socket(fileno=os.dup(bus.fileno())) as port, suppress(OSError):
+        if port.family == socket.AF_INET6:
+            port.setsockopt(socket.IPPROTO_IPV6, _IPV6_MULTICAST_ALL, 0)
+        else:
+            port.setsockopt(socket.IPPROTO_IP, _IP_MULTICAST_ALL, 0)
 
 
 def _objection(adapter: Adapter, error: Exception) -> str:

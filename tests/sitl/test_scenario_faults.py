@@ -1,13 +1,14 @@
 """Oracle of faults in files: what the guide says a table may hold; an error names file, key, value and what may be."""
 
 import re
+from collections.abc import Callable
 from math import inf
 from pathlib import Path
 
 import pytest
 
 from stommel.errors import FileError
-from stommel.sitl.campaign.run import TRIAL
+from stommel.sitl.campaign.run import TRIAL, load_kit
 from stommel.sitl.faults.fault import Fault, faults_from
 from stommel.sitl.faults.table import KINDS
 from stommel.sitl.scenario import load_scenario
@@ -51,7 +52,12 @@ def test_a_fault_is_what_its_table_said(row) -> None:  # type: ignore[no-untyped
         ({"kind": "pump_weak", "value": True}, r"value = True: must be a number"),
         ({"kind": "pump_weak", "value": float("nan")}, r"value = nan: must be a number"),
         ({"kind": "pump_weak", "at_s": -1}, r"at_s = -1: must be a number at least 0 s"),
-        ({"kind": "pump_weak", "for_s": "long"}, r"for_s = 'long': must be a number at least 0 s"),
+        ({"kind": "pump_weak", "for_s": "long"}, r"for_s = 'long': must be a number at least 0.001 s"),
+        ({"kind": "pump_weak", "for_s": 0}, r"for_s = 0: must be a number at least 0.001 s"),
+        *[
+            ({"kind": kind, "target": "ctd", "value": 1e300}, r"value = 1e\+300: must be a number .*at most 1e\+06 of")
+            for kind in ("sensor_biased", "sensor_noisy")
+        ],
         ({"kind": "pump_weak", "until_s": 3}, r"until_s: is no key of a fault.*allowed are kind, target, at_s"),
         ({"kind": "sensor_biased", "target": "leak_detector"}, r"target = 'leak_detector': must be one of pressure"),
     ],
@@ -61,6 +67,18 @@ def test_what_is_impossible_is_named(table: dict[str, object], words: str) -> No
         faults_from([table], "dive.toml")
     assert str(caught.value).startswith("dive.toml: ")
     assert re.search(words, str(caught.value))
+
+
+@pytest.mark.parametrize("load", [load_scenario, load_kit])
+def test_a_fault_after_the_mission_is_refused(tmp_path: Path, load: Callable[[Path], object]) -> None:
+    """The trial lasts two hours; the last second of it may still break something."""
+    path = tmp_path / "s.toml"
+    path.write_text(TRIAL.read_text() + GOOD + '\n[[faults]]\nkind = "pump_dead"\nat_s = 7200\n')
+    words = r"s.toml: faults\[1\].at_s = 7200: must be less than 7200 s, when the mission is over"
+    with pytest.raises(FileError, match=words):
+        load(path)
+    path.write_text(path.read_text().replace("7200", "7199"))
+    load(path)
 
 
 def test_faults_that_are_no_list_are_refused() -> None:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from stommel.files.toml_reader import read_toml
 from stommel.simulation.scenario.loading import mission_from
 from stommel.simulation.scenario.mission import Mission
-from stommel.sitl.faults.fault import Fault, faults_from
+from stommel.sitl.faults.fault import Fault, faults_from, refuse_late
 
 
 class Scenario(NamedTuple):
@@ -28,4 +28,6 @@ def load_scenario(path: str | Path) -> Scenario:
     """
     document = read_toml(path)
     faults = faults_from(document.pop("faults", []), str(path))
-    return Scenario(mission_from(document, str(path), Path(path).parent), faults)
+    mission = mission_from(document, str(path), Path(path).parent)
+    refuse_late(faults, 86400.0 * mission.scenario.duration_days, str(path))
+    return Scenario(mission, faults)

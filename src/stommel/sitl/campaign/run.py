@@ -16,7 +16,7 @@ from stommel.files.whole import write_whole
 from stommel.simulation.scenario.loading import mission_from
 from stommel.sitl.campaign.kit import CampaignKit, faults_in, fly_seed
 from stommel.sitl.campaign.verdict import FAILED, PASSED, UNSURVIVABLE
-from stommel.sitl.faults.fault import Fault, faults_from
+from stommel.sitl.faults.fault import Fault, faults_from, refuse_late
 from stommel.studies.errors import StudyError, StudyInterruptedError
 from stommel.studies.journal import Journal
 from stommel.studies.run import Progress, interruptible, silent
@@ -81,7 +81,8 @@ def load_kit(scenario: Path) -> CampaignKit:
     """
     document = read_toml(scenario)
     faults = faults_from(document.pop("faults", []), str(scenario))
-    mission_from(document, str(scenario), scenario.parent)
+    mission = mission_from(document, str(scenario), scenario.parent)
+    refuse_late(faults, 86400.0 * mission.scenario.duration_days, str(scenario))
     return CampaignKit(document, faults, scenario.parent.resolve(), str(scenario), stommel.__version__)
 
 

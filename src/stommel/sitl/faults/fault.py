@@ -57,6 +57,8 @@ class Fault(NamedTuple):
         return table
 
 
+SHORTEST = 0.001
+"""The least time that a fault may last [s]."""
 _KEYS = ("kind", "target", "at_s", "for_s", "value")
 
 
@@ -75,6 +77,25 @@ def faults_from(tables: Any, origin: str) -> tuple[Fault, ...]:
     if problems:
         raise FileError(problems)
     return tuple(fault for fault in found if fault is not None)
+
+
+def refuse_late(faults: Sequence[Fault], duration: float, origin: str) -> None:
+    """Refuse faults that begin when the mission, which lasts `duration` [s], is over: they would break nothing.
+
+    Raises
+    ------
+    FileError
+        A problem for each.
+    """
+    problems = [
+        Problem(
+            origin, f"faults[{k}].at_s",
+            f"faults[{k}].at_s = {fault.at:g}: must be less than {duration:g} s, when the mission is over",
+        )
+        for k, fault in enumerate(faults) if fault.at >= duration
+    ]  # fmt: skip
+    if problems:
+        raise FileError(problems)
 
 
 def _fault(table: Any, key: str, origin: str, problems: list[Problem]) -> Fault | None:
@@ -101,7 +122,7 @@ def _fault(table: Any, key: str, origin: str, problems: list[Problem]) -> Fault 
         allowed = f"must be one of {', '.join(row.targets)}" if row.targets else f"{row.name} has none; leave it out"
         refuse("target", f"= {target!r}: {allowed}")
     at = _number(table.get("at_s", 0.0), 0.0, inf, "at_s", "s", refuse)
-    duration = _number(table["for_s"], 0.0, inf, "for_s", "s", refuse) if "for_s" in table else inf
+    duration = _number(table["for_s"], SHORTEST, inf, "for_s", "s", refuse) if "for_s" in table else inf
     if not row.has_value and "value" in table:
         refuse("value", f"= {table['value']!r}: {row.name} has no value; leave it out")
         return None

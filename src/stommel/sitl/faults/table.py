@@ -1,6 +1,5 @@
 """The table of faults: everything that can be broken on purpose. The guide's table is made from it."""
 
-from math import inf
 from typing import NamedTuple
 
 BUS, SENSOR, SERIAL, MACHINERY, SUPPLY, SOFTWARE, HULL = (
@@ -14,6 +13,8 @@ COMPASS, GPS, CTD = "compass", "gps", "ctd"
 PORTS = (COMPASS, GPS, CTD)
 LEAK_DETECTOR = "leak_detector"
 ALL = "all"
+MOST = 1e6
+"""Greatest bias or noise of a sensor, in its unit: far beyond each, and all that is made of it stays a number."""
 
 
 class Sensor(NamedTuple):
@@ -101,9 +102,9 @@ KINDS = (
         "it says that it has another CAN database"),
     FaultKind("sensor_stuck", SENSOR, tuple(SENSORS), "", *_NONE, False,
         "it says for ever what it said as the fault began"),
-    FaultKind("sensor_biased", SENSOR, ANALOG, "of the sensor", -inf, inf, 1.0, (-1.0, 1.0), False,
+    FaultKind("sensor_biased", SENSOR, ANALOG, "of the sensor", -MOST, MOST, 1.0, (-1.0, 1.0), False,
         "it says so much more; a campaign draws a share of the greatest bias of the table of sensors"),
-    FaultKind("sensor_noisy", SENSOR, ANALOG, "of the sensor", 0.0, inf, 1.0, (0.1, 1.0), True,
+    FaultKind("sensor_noisy", SENSOR, ANALOG, "of the sensor", 0.0, MOST, 1.0, (0.1, 1.0), True,
         "normal noise of this standard deviation; a campaign draws a share as for the bias"),
     FaultKind("sensor_silent", SENSOR, tuple(SENSORS), "", *_NONE, True,
         "it does not answer"),

@@ -68,9 +68,7 @@ class Adapter:
             shown = one_line(repr(self.channel), 80)
             raise BusError(f"{self.keys}channel = {shown}: must be a name of up to 200 letters")
         if self.interface == "udp_multicast" and multicast_of(self.channel) is None:
-            allowed = (
-                "a multicast address, 224.0.0.0 to 239.255.255.255 or ff00::/8, with or without :PORT"
-            )
+            allowed = "a multicast address, 224.0.0.0 to 239.255.255.255 or ff00::/8, with or without :PORT"
             raise BusError(f"{self.keys}channel = {self.channel!r}: must be {allowed}")
         self._check_bitrate()
 

@@ -8,15 +8,18 @@ a value that is not named here fails as well. What the JSON says is held against
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from importlib import import_module
 from math import cos, radians, sin
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import typer
 
 from stommel.cli.app import app
 from stommel.vehicle import load_vehicle
+from tests.onboard.coordination.magnetic_vehicle import MagneticVehicle, samples_text
 from tests.support.command import run_here
 from tests.support.terminal import Shown, numbers_in, same, tables, values
 
@@ -307,6 +310,29 @@ WAYPOINTS: Columns = {
     "made good m/s": "leg_made_good_m_s",
     "off line m": "beside_line_greatest_m",
 }
+
+
+def in_the_loop(d: Any) -> dict[str, Any]:
+    return {
+        "state": d["state"],
+        "alarms": ", ".join(f"{alarm['name']} since {alarm['since_s']:.0f} s" for alarm in d["alarms"]) or "none",
+        "nodes": d["nodes"],
+        "bus": [
+            100.0 * d["bus_load_share"], d["frames_to_coordinator"], d["frames_lost"], d["frames_rejected"],
+        ],
+    }  # fmt: skip
+
+
+def calibrated(d: Any) -> dict[str, Any]:
+    return {
+        "hard iron": d["hard_iron_ut"],
+        "Earth's field": [d["strength_ut"], d["inclination_deg"]],
+        "left over": [d["residual_ut"], d["residual_inclination_deg"]],
+        "heading": [d["heading_error_deg"], d["raw_heading_error_deg"]],
+        "coverage": [d["heading_gap_deg"], *d["pitch_deg"], *d["roll_deg"]],
+        "soft iron's correction": [number for row in d["correction"] for number in row],
+    }
+
 
 CHOICE: Columns = {
     "speed r/min": "motor_speed_rpm",
@@ -695,6 +721,32 @@ ALL = [
         },
     ),
     Told(
+        "sitl fly pool_trial",
+        {
+            "Waypoints": (lambda d: d["waypoints"], WAYPOINTS),
+            "Energy from the battery": (
+                lambda d: parts(d["energy_wh"]),
+                {"part": "part", "energy Wh": "energy", "share %": "share"},
+            ),
+        },
+        lambda d: simulated(d) | in_the_loop(d),
+    ),
+    Told(
+        "vehicle calibrate-compass turned.csv",
+        {
+            "Fields of what runs": (
+                lambda d: d["actuators"],
+                {
+                    "actuator": lambda row: row["actuator"].replace("_", " "),
+                    **{f"b{k + 1} uT": lambda row, k=k: row["field_ut"][k] for k in range(3)},
+                    "error uT": "error_ut",
+                    "runs": "runs",
+                },
+            )
+        },
+        calibrated,
+    ),
+    Told(
         "vehicle check zju",
         values=lambda d: {
             "mass": d["mass_kg"],
@@ -709,8 +761,11 @@ ELSEWHERE = {
     "study": "tests/studies/test_sweeps and test_running hold its tables against its statistics",
     "sitl campaign": "tests/sitl/test_campaign_command, with sitl replay",
     "sitl replay": "as sitl campaign",
+    "sitl stand-in": "below",
+    "vehicle run": "below",
     "vehicle show": "below",
     "vehicle new": "prints a path",
+    "vehicle config": "prints a path",
     "vehicle log": "tests/onboard/coordination/test_log_command holds what it shows against what was logged",
     "bench generate": "prints a count",
     "ocean list": "below",
@@ -727,6 +782,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made = run_here(path, "bench", "generate", "zju", "--output", "bench.csv", "--pressure-mpa", "0.5,2",
                     "--speed-rpm", "5250,7000")  # fmt: skip
     assert made.status == 0, made.err
+    (path / "turned.csv").write_text(samples_text(MagneticVehicle(60.0), np.random.default_rng(1)))
     return path
 
 
@@ -775,6 +831,32 @@ def test_every_verb_is_looked_at() -> None:
     verbs = {" ".join(path) for path, _ in leaves(typer.main.get_command(app))}
     looked_at = {verb for verb in verbs for told in ALL if f"{told.call} ".startswith(f"{verb} ")}
     assert verbs == looked_at | set(ELSEWHERE)
+
+
+@pytest.mark.parametrize(
+    ("verb", "row", "shown"),
+    [
+        (
+            "vehicle_run",
+            {"decisions": 3599, "mean_step_ms": 1.26, "longest_step_ms": 8.74, "late_steps": 2, "failed_steps": 1},
+            {"decisions": 3599, "one decision": [1.3, 8.7], "late": 2, "failed": 1},
+        ),
+        (
+            "sitl_stand_in",
+            {"time_s": 61.0, "depth_m": 12.34, "nodes": {"motion": "safe", "acquisition": "operational"}},
+            {"depth": 12.3, "nodes": "motion safe, acquisition operational"},
+        ),
+    ],
+)
+def test_what_runs_until_it_is_stopped_tells_its_numbers(
+    capsys: pytest.CaptureFixture[str], verb: str, row: Row, shown: dict[str, Any]
+) -> None:
+    """Real ports and real time: the calls themselves are in tests/sitl/test_real_ports."""
+    import_module(f"stommel.cli.{verb}")._show(row)
+    found = values(capsys.readouterr().out)
+    assert set(found) == set(shown)
+    for name, value in shown.items():
+        assert same(found[name], value), f"{name}: {found[name]!r} is not {value!r}"
 
 
 def test_a_vehicle_is_shown_number_by_number(folder: Path) -> None:

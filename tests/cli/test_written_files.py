@@ -6,11 +6,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from typer.main import get_command
 
 from stommel.cli.app import app
 from stommel.errors import OutputError
+from tests.onboard.coordination.magnetic_vehicle import MagneticVehicle, samples_text
 
 MISSION = """
 name = "an hour of dives"
@@ -55,6 +57,15 @@ WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
         ("study", "study.toml", "--workers", "1", "--output", "s.nc", "--plots", "p"),
         ["s.nc", *both("p", "runs")],
     ),
+    "sitl fly": (
+        ("sitl", "fly", "mission.toml", "--output", "m.nc", "--track", "t.KML", "--plots", "all"),
+        ["m.nc", "t.KML", *both("all", *PICTURES), "all/mission.html"],
+    ),
+    "vehicle config": (("vehicle", "config", "zju", "--force", "--output", "new"), ["new/CONFIG.toml"]),
+    "vehicle calibrate-compass": (
+        ("vehicle", "calibrate-compass", "samples.csv", "--force", "--output", "new/c.toml"),
+        ["new/c.toml"],
+    ),
     "vehicle new": (("vehicle", "new", "mine.toml"), ["mine.toml"]),
     "bench generate": (("bench", "generate", "zju", "--output", "new/log.csv"), ["new/log.csv", "new/log.toml"]),
     "bench analyse": (("bench", "analyse", "bench.csv", "--plots", "p"), both("p", "performance", "response")),
@@ -64,17 +75,27 @@ WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
 }
 """Every verb that can write, and the files that it then writes."""
 
+ELSEWHERE = {
+    "sitl campaign": "tests/sitl/test_campaign_command: a journal, and what fails",
+    "sitl stand-in": "tests/sitl/test_real_ports: ports that go when it ends",
+}
+"""Verbs that write, but not what they were asked for at their end."""
+
 SAVE = {
     "--plot": (".png", ".svg", ".pdf"),
     "--plots": (),
     "--apply": (".toml",),
     "--track": (".geojson", ".kml"),
+    "--log": (),
+    "--ports": (),
     "FILE": (".toml",),
 }
 SAVE_AS = {
     "design": (".html",),
     "simulate": (".nc",),
+    "sitl fly": (".nc",),
     "study": (".nc", ".zarr"),
+    "vehicle calibrate-compass": (".toml",),
     "bench generate": (".csv",),
     "flight-table": (".toml",),
     "orders": (".toml",),
@@ -91,16 +112,21 @@ def verbs(group: Any = None, before: str = "") -> Iterator[tuple[str, Any]]:
             yield f"{before}{name}", command
 
 
-def outputs(command: Any) -> list[str]:
+def outputs(command: Any, *metavars: str) -> list[str]:
     """Options and arguments of a verb that name what it writes."""
     return [
         parameter.opts[0] if parameter.param_type_name == "option" else parameter.metavar
         for parameter in command.params
-        if parameter.metavar in ("FILE", "FOLDER")
+        if parameter.metavar in metavars
     ]
 
 
-OUTPUTS = [(verb, option) for verb, command in verbs() for option in outputs(command)]
+OUTPUTS = [(verb, option) for verb, command in verbs() for option in outputs(command, "FILE", "FOLDER")]
+FOLDERS = {(verb, option) for verb, command in verbs() for option in outputs(command, "FOLDER")}
+
+
+SAMPLES = samples_text(MagneticVehicle(60.0), np.random.default_rng(1))
+"""Of a compass that was turned in its vehicle."""
 
 
 @pytest.fixture
@@ -108,6 +134,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mission.toml").write_text(MISSION)
     (tmp_path / "study.toml").write_text(STUDY)
+    (tmp_path / "samples.csv").write_text(SAMPLES)
     (tmp_path / "file").write_text("in the way")
     (tmp_path / "folder").mkdir()
     return tmp_path
@@ -118,7 +145,7 @@ def files_in(folder: Path) -> set[str]:
 
 
 def test_the_table_holds_every_verb_that_writes() -> None:
-    assert set(WRITERS) == {verb for verb, _ in OUTPUTS}
+    assert set(WRITERS) | set(ELSEWHERE) == {verb for verb, _ in OUTPUTS}
     assert {option for _, option in OUTPUTS} == {*SAVE, "--output"}
 
 
@@ -158,7 +185,7 @@ def test_what_was_written_is_listed_and_nothing_else(ask: Ask, folder: Path, ver
     assert ask(*arguments).splitlines()[-len(expected) :] == [f"wrote {name}" for name in expected]
 
 
-@pytest.mark.parametrize("verb", sorted(set(WRITERS) - {"vehicle new", "bench generate", "study"}))
+@pytest.mark.parametrize("verb", sorted(set(WRITERS) - {"vehicle new", "vehicle config", "bench generate", "study"}))
 @pytest.mark.usefixtures("logged")
 def test_a_verb_that_wrote_nothing_says_so(ask: Ask, folder: Path, verb: str) -> None:
     arguments, _ = WRITERS[verb]
@@ -183,19 +210,20 @@ def refusal(verb: str, option: str, text: str) -> str:
 @pytest.mark.parametrize(("verb", "option"), OUTPUTS)
 def test_paths_that_cannot_be_written_are_refused_before_any_work(folder: Path, verb: str, option: str) -> None:
     before = files_in(folder)
-    ending = next(iter(SAVE.get(option) or SAVE_AS.get(verb) or ()), "")
+    is_folder = (verb, option) in FOLDERS
+    ending = "" if is_folder else next(iter(SAVE.get(option) or SAVE_AS.get(verb) or ()), "")
     long = "n" * 300 + ending
     words = {
         "": "names no",
         "  ": "names no",
-        "/": "is the root" if option == "--plots" else "is a folder",
+        "/": "is the root" if is_folder else "is a folder",
         f"file/new{ending}": "Not a directory",
         long: "File name too long",
         f"new/{long}": "File name too long",
         "n/" * 3000 + f"x{ending}": "File name too long",
         f"/proc/new{ending}": "cannot be written",
     }
-    if option == "--plots":
+    if is_folder:
         words["file"] = "Not a directory"
     else:
         words |= {"folder": "is a folder", ".": "is a folder", "..": "is a folder"}
@@ -209,7 +237,7 @@ def test_paths_that_cannot_be_written_are_refused_before_any_work(folder: Path, 
     assert sorted(path.name for path in folder.iterdir() if path.is_dir()) == ["folder"]
 
 
-@pytest.mark.parametrize(("verb", "option"), [pair for pair in OUTPUTS if pair[1] != "--plots"])
+@pytest.mark.parametrize(("verb", "option"), [pair for pair in OUTPUTS if pair not in FOLDERS])
 def test_another_ending_is_refused_with_those_that_are_allowed(folder: Path, verb: str, option: str) -> None:
     allowed = SAVE.get(option) or SAVE_AS[verb]
     for name in ("hull.v2", "plot", "plot.jpeg", "plot.", allowed[0], f"plot{allowed[0]}.old"):

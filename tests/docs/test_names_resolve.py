@@ -14,6 +14,7 @@ from pydantic import BaseModel
 from typer.main import get_command
 
 from stommel.cli.app import app
+from stommel.cli.sitl import FLY
 from stommel.control.orders_tables import OrdersFile
 from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle.schema import VehicleFile
@@ -88,7 +89,10 @@ def parse(line: str) -> None:
     """Parse a command line without running it; an unknown verb or option, or a missing argument, raises."""
     program, *arguments = shlex.split(line)
     command: Any = get_command(app)
+    sitl = command.commands["sitl"]
     while arguments and hasattr(command, "commands") and not arguments[0].startswith("-"):
+        if arguments[0] not in command.commands and command is sitl:
+            arguments.insert(0, FLY)  # what is no verb of this group is a scenario to fly
         command = command.commands[arguments.pop(0)]
     if arguments and arguments != ["--help"]:  # a verb alone is named, not called
         command.make_context(program, arguments)
@@ -99,7 +103,10 @@ def test_every_command_line_parses(page: str, line: str) -> None:
     parse(line.replace("COMMAND", "trim").replace("VEHICLE", "zju"))
 
 
-@pytest.mark.parametrize("line", ["stommel trimm zju", "stommel trim zju --sped 0.4", "stommel table zju --speed"])
+@pytest.mark.parametrize(
+    "line",
+    ["stommel trimm zju", "stommel trim zju --sped 0.4", "stommel table zju --speed", "stommel sitl zju --sped 1"],
+)
 def test_a_wrong_command_line_does_not(line: str) -> None:
     with pytest.raises(Exception, match=r"trimm|--sped|--speed"):
         parse(line)

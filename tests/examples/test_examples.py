@@ -45,6 +45,26 @@ def test_wing_position_trades_damping_for_authority(printed: Callable[[str], str
     assert len(set(pitch)) == 1
 
 
+def test_the_log_of_the_software_is_true(printed: Callable[[str], str]) -> None:
+    """Four dives to 2.5 m, each with its three phases, and depths as the sensor's noise and step allow."""
+    told = printed("fly_the_software.py")
+    for phase in ("descent", "inflection", "ascent"):
+        assert told.count(f"mission: {phase}: control dives\n") == 4
+    assert re.search(r"^whole, whole: \d+ decisions, 4 dives$", told, re.M)
+    seen, true, rms = map(float, re.findall(r"depth (\S+) m, in truth (\S+) m; off by (\S+) m", told)[0])
+    assert seen == pytest.approx(true, abs=0.2)
+    assert true == pytest.approx(2.5, abs=0.3)
+    assert 0.0 < rms < 0.1
+
+
+def test_no_flipped_bit_gets_through(printed: Callable[[str], str]) -> None:
+    """CRC-8 finds each of the 64 bits of a frame; the second of four frames was repeated, the third lost."""
+    told = printed("decode_can_frames.py")
+    assert "again: Sync rejected: its alive counter is that of the frame before" in told
+    assert "after a gap: Sync: vehicle_time 3 s (1 lost before) - 1 lost\n" in told
+    assert told.endswith("64 of 64 flipped bits are found\n")
+
+
 def test_python_of_the_readme(tmp_path: Path) -> None:
     (block,) = blocks(README, "python")
     run_python("-c", block + "\nassert plant.nstates == 4", folder=tmp_path)

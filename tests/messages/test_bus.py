@@ -8,12 +8,13 @@ import sys
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from typing import Any
 
 import can
 import pytest
 
-from stommel.messages.adapters import Adapter, BusError, open_adapter
+from stommel.messages.adapters import Adapter, BusError, multicast_of, open_adapter
 from stommel.messages.bus import MOST, WAIT, CanBus
 from stommel.messages.frames import Frame
 
@@ -212,7 +213,7 @@ def test_two_buses_within_one_program() -> None:
 
 ECHO = """
 import sys, time
-from stommel.messages.adapters import Adapter
+from stommel.messages.adapters import multicast_of, Adapter
 from stommel.messages.bus import CanBus
 from stommel.messages.frames import Frame
 with CanBus(Adapter("udp_multicast", sys.argv[1])) as bus:
@@ -255,6 +256,25 @@ def test_two_programs_over_loopback() -> None:
         assert other.wait(10) == 0
 
 
+@pytest.mark.parametrize(("ours", "others"), [("239.74.163.79", "239.74.163.80"), ("ff05::4a79", "ff05::4a80")])
+def test_buses_at_two_addresses_of_one_machine_do_not_hear_each_other(ours: str, others: str) -> None:
+    """Two vehicles on one bench: what one is told must not move the other. All have python-can's one port."""
+    with ExitStack() as opened:
+        try:
+            here, there, beside = (
+                opened.enter_context(CanBus(Adapter("udp_multicast", one))) for one in (ours, ours, others)
+            )
+        except BusError as error:
+            pytest.skip(f"this kernel refuses multicast: {error}")
+        here.send(FRAME)
+        if not within(2.0, lambda: FRAME in there.receive()):
+            pytest.skip("this kernel carries no multicast between programs")
+        beside.send(FRAME)  # its own other end is not there; time enough that all has come
+        time.sleep(0.1)
+        assert FRAME not in beside.receive()
+        assert FRAME not in there.receive()
+
+
 def test_a_bus_over_loopback_survives_bytes_that_are_no_frame() -> None:
     import socket
 
@@ -291,6 +311,8 @@ def test_a_bus_over_loopback_survives_bytes_that_are_no_frame() -> None:
         (("socketcan", "can0", 500000), "can.bitrate = 500000: leave it out; it is set with: ip link set can0"),
         (("virtual", "x", 500000), "can.bitrate = 500000: leave it out; virtual has none"),
         (("udp_multicast", "10.0.0.1"), "can.channel = '10.0.0.1': must be a multicast address, 224.0.0.0 to"),
+        (("udp_multicast", "239.1.1.1:99"), "can.channel = '239.1.1.1:99': must be a multicast address"),
+        (("udp_multicast", "239.1.1.1:"), "can.channel = '239.1.1.1:': must be a multicast address"),
         (("udp_multicast", "nowhere"), "can.channel = 'nowhere': must be a multicast address"),
         (("virtual", "a\nb"), "can.channel = 'a\\nb': must be a name"),
     ],
@@ -328,3 +350,15 @@ def test_what_a_driver_says_becomes_a_sentence(monkeypatch: pytest.MonkeyPatch, 
     with pytest.raises(BusError) as refused:
         open_adapter(Adapter("virtual", "fake"))
     assert says in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("channel", "found"),
+    [
+        ("239.74.163.2", ("239.74.163.2", None)), ("239.74.163.2:43200", ("239.74.163.2", 43200)),
+        ("ff15::1", ("ff15::1", None)), ("[ff15::1]:43200", ("ff15::1", 43200)), ("10.0.0.1:43200", None),
+        ("239.74.163.2:70000", None), ("239.74.163.2:x", None), ("", None),
+    ],
+)  # fmt: skip
+def test_a_multicast_channel_may_name_its_port(channel: str, found: tuple[str, int | None] | None) -> None:
+    assert multicast_of(channel) == found

@@ -4,6 +4,7 @@ import pkgutil
 import subprocess
 import sys
 
+import stommel.instruments
 import stommel.messages
 import stommel.onboard
 
@@ -13,7 +14,7 @@ HEAVY = (
 )  # fmt: skip
 MODULES = sorted(
     info.name
-    for package in (stommel.onboard, stommel.messages)
+    for package in (stommel.onboard, stommel.instruments, stommel.messages)
     for info in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
 )
 PROGRAM = """
@@ -41,11 +42,12 @@ def _environment() -> dict[str, str]:
 def test_there_is_something_to_import() -> None:
     assert "stommel.onboard.coordination.config.configuration" in MODULES
     assert "stommel.messages.codec" in MODULES
+    assert "stommel.instruments.tcm.driver" in MODULES
     assert len(MODULES) > 20
 
 
 def test_flight_software_imports_nothing_heavy() -> None:
-    """Every module of onboard and messages in one process: none of these, not even through others."""
+    """Every module of onboard, instruments and messages in one process: none of these, not even through others."""
     done = imported(MODULES, " ".join(HEAVY))
     assert done.returncode == 0, done.stderr
 

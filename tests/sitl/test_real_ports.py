@@ -23,8 +23,9 @@ from stommel.simulation.scenario.shipped import mission_path
 from stommel.sitl.stand_in import StandIn, Terminals
 from tests.support.command import PROGRAM, run_here
 
-SECONDS = 20
-CHANNEL = f"239.74.163.{1 + os.getpid() % 250}"
+SECONDS = 40
+CHANNEL = f"239.74.163.{1 + os.getpid() % 250}:{30000 + os.getpid() % 10000}"
+"""A port of its own: a bus of another test on this machine would be heard."""
 
 
 @pytest.fixture

@@ -11,6 +11,7 @@ from stommel.cli.finish import finish
 from stommel.cli.numbers import count_option, seed_option
 from stommel.cli.options import JsonOption
 from stommel.cli.output import show_table, show_values
+from stommel.cli.paths import folder_parser
 from stommel.cli.status import INTERRUPTED
 from stommel.files.units import counted
 
@@ -25,8 +26,14 @@ def campaign(
         Path | None, typer.Argument(metavar="SCENARIO.toml", help="What is flown; short dives if left out.")
     ] = None,
     output: Annotated[
-        Path, typer.Option("--output", metavar="FOLDER", help="Journal, and the scenario files of flights that fail.")
-    ] = Path("campaign"),
+        Path | None,
+        typer.Option(
+            "--output",
+            metavar="FOLDER",
+            parser=folder_parser("--output"),
+            help="Journal, and the scenario files of flights that fail; `campaign` if left out.",
+        ),
+    ] = None,
     runs: Annotated[int, count_option("--runs", 1, _MOST, "Flights")] = 500,
     seed: Annotated[int, seed_option("Of the first flight; the others follow")] = 1,
     workers: Annotated[int | None, count_option("--workers", 1, 1024, "Processes; all cores if left out")] = None,
@@ -46,11 +53,11 @@ def campaign(
     from stommel.studies.errors import StudyInterruptedError
 
     kit = load_kit(TRIAL if scenario is None else scenario)
-    seeds = range(seed, seed + runs)
+    seeds, folder = range(seed, seed + runs), output or Path("campaign")
     try:
         with _progress() as progress:
             done = run_campaign(
-                kit, output, seeds, workers=workers, scheduler=scheduler, restart=restart, progress=progress
+                kit, folder, seeds, workers=workers, scheduler=scheduler, restart=restart, progress=progress
             )
     except StudyInterruptedError as error:
         typer.echo(str(error), err=True)

@@ -26,7 +26,7 @@ def run(
     mission: Annotated[
         Path | None,
         typer.Option(
-            "--mission", metavar="FILE", help="Orders to take first (`stommel orders`), if they fit the vehicle."
+            "--mission", metavar="ORDERS.toml", help="Orders to take first (`stommel orders`), if they fit the vehicle."
         ),
     ] = None,
     start: Annotated[
@@ -93,6 +93,7 @@ def _answer(figures: "Figures") -> dict[str, Any]:
         "mean_step_ms": figures.mean_step_ms,
         "longest_step_ms": figures.longest_step_ms,
         "late_steps": figures.late,
+        "failed_steps": figures.exceptions,
     }
 
 
@@ -103,5 +104,6 @@ def _show(row: dict[str, Any]) -> None:
             "decisions": str(row["decisions"]),
             "one decision": f"{row['mean_step_ms']:.1f} ms (mean), {row['longest_step_ms']:.1f} ms at most",
             "late": str(row["late_steps"]),
+            "failed": str(row["failed_steps"]),
         },
     )

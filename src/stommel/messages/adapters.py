@@ -1,7 +1,11 @@
 """Which CAN adapter, by configuration, and what is said where it cannot be opened."""
 
 import errno
+import os
+import socket
+import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from ipaddress import ip_address
 from types import MappingProxyType
@@ -23,6 +27,8 @@ INTERFACES = {
 DEFAULT_CHANNELS: Mapping[str, str] = MappingProxyType(
     {"socketcan": "can0", "slcan": "/dev/ttyACM0", "udp_multicast": "239.74.163.2", "virtual": "vehicle"}
 )
+_IP_MULTICAST_ALL, _IPV6_MULTICAST_ALL = 49, 29
+"""Of Linux (linux/in.h, linux/in6.h); Python has no names for them."""
 BITRATES = (10_000, 20_000, 50_000, 100_000, 125_000, 250_000, 500_000, 750_000, 1_000_000)
 """Of the slcan protocol [bit/s]."""
 
@@ -61,8 +67,8 @@ class Adapter:
         if not self.channel.isprintable() or len(self.channel) > 200:
             shown = one_line(repr(self.channel), 80)
             raise BusError(f"{self.keys}channel = {shown}: must be a name of up to 200 letters")
-        if self.interface == "udp_multicast" and not _is_multicast(self.channel):
-            allowed = "a multicast address, 224.0.0.0 to 239.255.255.255 or ff00::/8"
+        if self.interface == "udp_multicast" and multicast_of(self.channel) is None:
+            allowed = "a multicast address, 224.0.0.0 to 239.255.255.255 or ff00::/8, with or without :PORT"
             raise BusError(f"{self.keys}channel = {self.channel!r}: must be {allowed}")
         self._check_bitrate()
 
@@ -81,11 +87,23 @@ class Adapter:
         return f"{self.interface} {self.channel}"
 
 
-def _is_multicast(channel: str) -> bool:
+def multicast_of(channel: str) -> tuple[str, int | None] | None:
+    """Address and port of `ADDRESS` or `ADDRESS:PORT` (IPv6: `[ADDRESS]:PORT`); None where it is no multicast.
+
+    Two buses of one machine need two ports: the system gives datagrams of any group to every program on the port.
+    """
+    address, colon, port = channel.rpartition(":")
+    if not colon or (":" in address and not address.endswith("]")):
+        address, port = channel, ""  # no port, or an IPv6 address
+    elif not port:
+        return None
     try:
-        return ip_address(channel).is_multicast
+        found = ip_address(address.strip("[]"))
     except ValueError:
-        return False
+        return None
+    if not found.is_multicast or (port and not (port.isascii() and port.isdigit() and 1024 <= int(port) <= 65535)):
+        return None
+    return str(found), int(port) if port else None
 
 
 def open_adapter(adapter: Adapter) -> "BusABC":
@@ -101,12 +119,32 @@ def open_adapter(adapter: Adapter) -> "BusABC":
     options: dict[str, Any] = {"interface": adapter.interface, "channel": adapter.channel}
     if adapter.bitrate is not None:
         options["bitrate"] = adapter.bitrate
-    if adapter.interface == "udp_multicast":
-        options["fd"] = False
+    multicast = multicast_of(adapter.channel) if adapter.interface == "udp_multicast" else None
+    if multicast is not None:
+        address, port = multicast
+        options |= {"channel": address, "fd": False} | ({} if port is None else {"port": port})
     try:
-        return Bus(ignore_config=True, **options)
+        bus = Bus(ignore_config=True, **options)
+        if adapter.interface == "udp_multicast":
+            hear_own_address_only(bus)
     except Exception as error:  # drivers' errors come as they are (hardbyte/python-can#907)
         raise BusError(_objection(adapter, error)) from error
+    return bus
+
+
+def hear_own_address_only(bus: "BusABC") -> None:
+    """Keep a multicast bus from hearing the buses of other programs on this machine, which have other addresses.
+
+    By default Linux hands a socket what comes to any address that any program has joined (ip(7), IP_MULTICAST_ALL).
+    """
+    if sys.platform != "linux":
+        return
+    # the family is that of the descriptor; a kernel that has no such option goes on as it is
+    with socket.socket(fileno=os.dup(bus.fileno())) as port, suppress(OSError):
+        if port.family == socket.AF_INET6:
+            port.setsockopt(socket.IPPROTO_IPV6, _IPV6_MULTICAST_ALL, 0)
+        else:
+            port.setsockopt(socket.IPPROTO_IP, _IP_MULTICAST_ALL, 0)
 
 
 def _objection(adapter: Adapter, error: Exception) -> str:

@@ -71,12 +71,14 @@ def safety_limits(setup: Setup) -> SafetyLimits:
 
 def coordinator_settings(setup: Setup, sample_interval: float, calibration: CompassCalibration) -> CoordinatorSettings:
     """Return the settings of the coordinator."""
+    plant = setup.equipment.plant
     return CoordinatorSettings(
         safety=safety_limits(setup),
         actuators=actuator_limits(setup),
-        has_drop_weight=setup.equipment.plant.drop_weight > 0.0,
+        has_drop_weight=plant.drop_weight > 0.0,
         declination=setup.equipment.sensors.declination,
         calibration=calibration,
+        usable_energy=plant.battery.energy if math.isfinite(plant.battery.energy) else None,
         sample_interval=sample_interval,
     )
 

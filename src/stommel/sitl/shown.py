@@ -13,6 +13,8 @@ from stommel.sitl.system import System
 
 EARTH_RADIUS = 6_371_000.0
 """[m]; good for distances that are only shown."""
+_MOST_HOURS = 1e5
+"""A longer time is none that is known: at rest, or just switched on [h]."""
 WELL, QUIET, ODD, BAD = "well", "quiet", "odd", "bad"
 """How a value is: as it should be, of no interest now, worth a look, wrong."""
 
@@ -135,13 +137,20 @@ def _power(system: System, view: View) -> tuple[Line, ...]:
     wet = view.situation.leak_fore or view.situation.leak_aft
     return (
         Line("battery", f"{_number(r.voltage, '.2f', 'V')}, {_number(r.current, '.2f', 'A')}", gauge),
-        Line("used", f"{used:.2f} Wh"),
+        Line("used", f"{used:.2f} Wh{_left(view)}"),
         Line(
             "in the hull",
             f"{_number(r.internal_pressure / 1e3, '.1f', 'kPa')}, {seen.value('Hull', 'temperature'):.1f} °C",
         ),
         Line("leak", "water in the hull" if wet else "dry", BAD if wet else WELL),
     )
+
+
+def _left(view: View) -> str:
+    """How long the rest of the battery lasts, once a mean power is known."""
+    if view.battery is None or view.battery.hours_left > _MOST_HOURS:
+        return ""
+    return f", {view.battery.hours_left / 24.0:.1f} days left"
 
 
 def _bus(system: System, view: View) -> tuple[Line, ...]:

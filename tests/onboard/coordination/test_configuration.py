@@ -76,7 +76,10 @@ def test_coordinator_is_set_up_as_in_the_loop(text: str, tmp_path: Path) -> None
     assert tuple(found.safety) == pytest.approx(tuple(safety), rel=0.02)  # its oil is warmer
     assert found.actuators[:4] == pytest.approx(loop.actuators[:4])
     assert found.actuators[-2:] == pytest.approx(loop.actuators[-2:])
-    assert replace(found, safety=loop.safety, actuators=loop.actuators, declination=loop.declination) == loop
+    assert found.usable_energy == pytest.approx(0.9 * 3600.0 * 24.0 * 45.0)  # of 45 Ah at 24 V a tenth is kept
+    assert found.schedule.decide == loop.schedule.decide
+    same = {name: getattr(loop, name) for name in ("safety", "actuators", "declination", "usable_energy", "schedule")}
+    assert replace(found, **same) == loop
 
 
 def models(model: type[BaseModel]) -> Iterator[type[BaseModel]]:

@@ -303,18 +303,59 @@ def test_commands_for_others_are_passed_over_and_those_of_the_bench_are_obeyed()
     assert [f.identifier for f in said if f.identifier == 386] == [386]
 
 
-def test_the_self_test_names_what_is_wrong():
-    for overwritten, result, detail in [
-        ({}, "Done", 0), ({"V_b": nan}, "Failed", 1), ({"r_px": nan, "steering": nan}, "Failed", 6),
-        ({"limit_fore": True, "limit_aft": True}, "Failed", 8), ({"mass_current": 9.0}, "Failed", 16),
+def test_the_self_test_names_what_is_wrong_at_rest():
+    for overwritten, detail in [
+        ({"V_b": nan}, 1), ({"r_px": nan, "steering": nan}, 6), ({"limit_fore": True, "limit_aft": True}, 8),
+        ({"mass_current": 9.0}, 16),
     ]:  # fmt: skip
         bench = MotionBench(start=False)
         bench.plant.overwritten = overwritten
         bench.run(2)
         bench.command("SelfTest")
         bench.run(2)
-        assert bench.results() == [("SelfTest", result)]
+        assert bench.results() == [("SelfTest", "Failed")]
         assert bench.messages("MotionAcknowledgement")[-1].values["detail"] == detail
+
+
+@pytest.mark.parametrize("interval", [0.1, 1.0])
+def test_the_self_test_moves_every_drive_and_brings_it_back(interval: float):
+    """Oracle: where the plant's drives have been, and where they stand at the end."""
+    bench = MotionBench(interval)
+    plant = bench.plant
+    home = (plant.V_b, plant.r_px, plant.steering)
+    bench.command("SelfTest")
+    been = [(plant.V_b, plant.r_px, plant.steering)]
+    while bench.results()[-1:] != [("SelfTest", "Done")]:
+        bench.run(interval)
+        been.append((plant.V_b, plant.r_px, plant.steering))
+        assert len(been) < 60.0 / interval
+    for place, start, way, tolerance in zip(zip(*been, strict=True), home, (2e-6, 3e-3, 0.05),
+                                            (2e-7, 2e-3, 3.5e-3), strict=True):  # fmt: skip
+        assert way - tolerance <= max(abs(value - start) for value in place) <= way + 2.0 * tolerance
+        assert abs(place[-1] - start) <= tolerance
+
+
+@pytest.mark.parametrize(("still", "detail"), [("V_b", 64), ("r_px", 128), ("steering", 256)])
+def test_the_self_test_finds_a_drive_that_does_not_follow(still: str, detail: int):
+    bench = MotionBench()
+    bench.plant.overwritten = {still: getattr(bench.plant, still)}
+    bench.command("SelfTest")
+    bench.run(120)
+    assert bench.results()[-1] == ("SelfTest", "Failed")
+    assert int(bench.messages("MotionAcknowledgement")[-1].values["detail"]) & ~32 == detail
+
+
+def test_the_self_test_ends_where_the_node_may_not_move():
+    bench = MotionBench(start=False)
+    bench.command("SelfTest")
+    bench.run(2)
+    assert bench.results() == [("SelfTest", "Refused")]
+    bench = MotionBench()
+    bench.command("SelfTest")
+    bench.run(1)
+    bench.command("Stop")
+    bench.run(3)
+    assert bench.results()[-1] == ("SelfTest", "Refused")
 
 
 def write(bench: MotionBench, number: int, value: float) -> int:

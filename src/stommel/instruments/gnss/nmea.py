@@ -19,7 +19,7 @@ KNOT = 1852.0 / 3600.0
 
 
 def checksum(content: bytes) -> int:
-    """Checksum of what stands between $ and *."""
+    """Checksum of what stands between `$` and `*`."""
     return reduce(xor, content, 0)
 
 
@@ -63,7 +63,7 @@ def midnight(day: object) -> float | None:
 
 
 def sentence(content: str) -> bytes:
-    """Bytes of a sentence: what stands between $ and *, with its checksum and line end."""
+    """Bytes of a sentence: what stands between `$` and `*`, with its checksum and line end."""
     data = content.encode("ascii")
     return b"$%b*%02X\r\n" % (data, checksum(data))
 

@@ -22,7 +22,7 @@ from stommel.onboard.coordination.logbook.logbook import Logbook
 from stommel.onboard.coordination.navigation import NavigationEstimate, Navigator
 from stommel.onboard.coordination.nodes_control import NodesControl
 from stommel.onboard.coordination.perception import Perception
-from stommel.onboard.coordination.power import Sleeper, wakes
+from stommel.onboard.coordination.power import BatteryAccount, BatteryEstimate, Sleeper, wakes
 from stommel.onboard.coordination.recording import Recorder
 from stommel.onboard.coordination.safety import SafetyMonitor, standing_alarms
 from stommel.onboard.coordination.settings import CoordinatorSettings
@@ -86,6 +86,8 @@ class Coordinator:
         self._heartbeat = HeartbeatSender(COORDINATOR, self._encoder, before.starts, settings.kind)
         self._nodes = NodesControl.of(self._encoder, before.starts)
         self._navigator: Navigator | None = None
+        usable = settings.usable_energy
+        self._battery = None if usable is None else BatteryAccount(usable)
         self._sleeper = Sleeper(settings.schedule)
         self._store, self._before, self._mission = store, before, before.mission
         self._requests = NO_REQUESTS
@@ -143,7 +145,7 @@ class Coordinator:
         state = self.executive.update(situation, safety, requests)
         control = pilot.step(readings, state, t, self._sleeper.elapsed)
         commands = commands_of(state, control, self.settings.actuators)
-        self.view = view = View(t, situation, safety, state, commands, self._navigate(t))
+        self.view = view = View(t, situation, safety, state, commands, self._navigate(t), self._account(t))
         self.recorder.decided(view, pilot, readings, self._nodes.outcomes(), seen)
         return view
 
@@ -156,6 +158,13 @@ class Coordinator:
             self._navigator = Navigator(self.settings.navigation)
         sigma, self._fix_sigma = self._fix_sigma, None
         return self._navigator.update(memory, t, sigma)
+
+    def _account(self, t: float) -> BatteryEstimate | None:
+        """Follow what is left in the battery."""
+        memory = self.pilot.memory
+        if memory is None or self._battery is None:
+            return None
+        return self._battery.update(t, float(memory["energy_used"]))
 
     def _keep(self, view: View) -> None:
         """Keep what must outlive a restart: at once what an operator or safety did, the way once a surfacing."""

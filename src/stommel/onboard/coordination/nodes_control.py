@@ -12,7 +12,7 @@ from stommel.onboard.coordination.executive import ExecutiveState, State
 ASK_AGAIN = 10.0
 """Between two commands of a kind to a node [s]."""
 
-OIL_WRONG, MASS_WRONG, STEERING_WRONG, ALL_WRONG = 1, 2 | 8, 4, 16 | 32
+OIL_WRONG, MASS_WRONG, STEERING_WRONG, ALL_WRONG = 1 | 64, 2 | 8 | 128, 4 | 256, 16 | 32
 """Bits of what the motion node's self-test found, by the drive that they are about."""
 
 

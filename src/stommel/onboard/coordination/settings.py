@@ -29,6 +29,8 @@ class CoordinatorSettings:
     compass: CompassSettings = field(default_factory=lambda: CompassSettings(polled=False))
     gnss: GnssSettings = field(default_factory=GnssSettings)
     navigation: NavigationErrors = field(default_factory=NavigationErrors)
+    usable_energy: float | None = None
+    """Energy of the charged battery that may be taken [J]; None where nobody said."""
     schedule: PowerSchedule = field(default_factory=PowerSchedule)
     kind: NodeKind = field(default_factory=lambda: NodeKind(1, (0, 1, 0)))
     """Of this computer."""

@@ -5,6 +5,7 @@ from typing import NamedTuple
 from stommel.control.commands import Commands
 from stommel.onboard.coordination.executive import ExecutiveState
 from stommel.onboard.coordination.navigation import NavigationEstimate
+from stommel.onboard.coordination.power import BatteryEstimate
 from stommel.onboard.coordination.safety import SafetyState
 from stommel.onboard.coordination.situation import Situation
 
@@ -20,3 +21,5 @@ class View(NamedTuple):
     commands: Commands
     navigation: NavigationEstimate | None
     """None before the first position."""
+    battery: BatteryEstimate | None
+    """None before the first position, and where nobody said what the battery holds."""

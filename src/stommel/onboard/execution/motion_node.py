@@ -9,6 +9,7 @@ from stommel.messages.database import MOTION
 from stommel.messages.frames import Frame
 from stommel.messages.nodes import UNSTATED, NodeKind
 from stommel.messages.parameters import ParameterStore, ParameterType, to_bits
+from stommel.onboard.execution.exercise import Exercise
 from stommel.onboard.execution.motion_drives import MotionDrives
 from stommel.onboard.execution.motion_io import AT_REST, DriveOutputs, MotionReadings
 from stommel.onboard.execution.motion_settings import MotionSettings
@@ -56,6 +57,7 @@ class MotionNode:
         self.weight_released = False
         """Whether the drop weight was told to go."""
         self._goals: tuple[float, float, float] | None = None
+        self._exercise: tuple[Order, Exercise] | None = None
         self._release_ends = -inf
         self._told_at = -inf
         self._creep_told = 0.0
@@ -76,6 +78,7 @@ class MotionNode:
             self._take(received, readings)
         settings = drives.settings
         link.watch_silence(settings.quiet_after, settings.blow_after)
+        self._go_on_with_exercise()
         self.outputs = self._drive(interval)
         if fresh:
             self._report()
@@ -92,9 +95,25 @@ class MotionNode:
         drop = link.now < self._release_ends
         if mode in BLOWING:
             return drives.blow(interval, drop=drop)
+        if self._exercise is not None:
+            return drives.drive(*self._exercise[1].goals, interval, drop=drop)
         if self._goals is None:
             return drives.hold(interval, drop=drop)
         return drives.drive(*self._goals, interval, drop=drop)
+
+    def _go_on_with_exercise(self) -> None:
+        """Look how far the self-test is, and say how it ended; whatever takes the node out of its mode ends it."""
+        if self._exercise is None:
+            return
+        order, exercise = self._exercise
+        if self.link.modes.mode is not Mode.OPERATIONAL:
+            self._exercise = None
+            self.link.acknowledge(order, "Refused")
+            return
+        exercise.observe(self.link.now)
+        if exercise.done:
+            self._exercise = None
+            self.link.acknowledge(order, "Failed" if exercise.found else "Done", exercise.found)
 
     def _drop_if_lost(self, mode: Mode) -> None:
         """Drop the weight of a vehicle that nobody commands and that could not pump its oil out."""
@@ -145,7 +164,7 @@ class MotionNode:
             result = "Done"
         elif order.command == "SelfTest":
             detail = self.self_test(readings)
-            result = "Failed" if detail else "Done"
+            result = "Failed" if detail else self._begin_exercise(order)
         elif order.command == "Restart":
             result = "Done"
         link.acknowledge(order, result, detail)
@@ -153,12 +172,21 @@ class MotionNode:
             self._restart()
 
     def _restart(self) -> None:
-        self._goals, self._told_at = None, -inf
+        self._goals, self._exercise, self._told_at = None, None, -inf
         self.drives = MotionDrives(self.drives.settings)
         self.link.restart()
 
+    def _begin_exercise(self, order: Order) -> str:
+        """Let each drive prove itself by moving, where the node may move them."""
+        if self.link.modes.mode is not Mode.OPERATIONAL:
+            return "Refused"
+        if self._exercise is None:
+            self._exercise = (order, Exercise(self.drives, self.link.now))
+            return "InProgress"
+        return "Refused"
+
     def self_test(self, readings: MotionReadings) -> int:
-        """Bits of what is wrong with the drives, without moving them; 0 is well."""
+        """Bits of what is wrong with the drives before they are moved; 0 is well."""
         drives = self.drives
         found = [
             (NO_OIL, not drives.engine.measured),

@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from stommel.errors import one_line
 from stommel.messages.database import database, database_hash
 from stommel.messages.frames import Frame
 from stommel.onboard.coordination.config import Configuration
@@ -44,6 +45,8 @@ class Figures:
     longest_step_ms: float = 0.0
     """Of a decision with all frames of its second."""
     total_step_s: float = 0.0
+    exceptions: int = 0
+    """Steps that failed; in each the nodes heard nothing."""
     late: int = 0
     """Steps that began more than half a period late."""
 
@@ -137,7 +140,14 @@ class VehicleSoftware:
             self._tell(t, "can", words)
 
     def _step(self, heard: _Heard, t: float) -> None:
-        frames, to_ports = self.coordinator.step(t, heard.frames, heard.bytes)
+        try:
+            frames, to_ports = self.coordinator.step(t, heard.frames, heard.bytes)
+        except Exception as error:  # noqa: BLE001 - without Sync the nodes bring the vehicle up, if this goes on
+            self.figures.exceptions += 1
+            self._tell(
+                t, "exception", f"a step of the coordinator failed: {type(error).__name__}: {one_line(str(error), 200)}"
+            )
+            return
         for frame in frames:
             self.ports.bus.send(frame)
         for name, data in to_ports.items():

@@ -1,7 +1,7 @@
 """Logs to bytes and back.
 
 ASCII: `#NAMEA,header;body*CRC`; binary: `AA 44 12`, a header of 28 bytes, body, CRC. The CRC-32 is the reflected
-polynomial 0xEDB88320 from zero and without a final inversion, over what stands between # and *, or before it.
+polynomial 0xEDB88320 from zero and without a final inversion, over what stands between `#` and `*`, or before it.
 """
 
 import struct

@@ -54,7 +54,7 @@ def run(
             software = VehicleSoftware(settings, ports, lambda words: typer.echo(words, err=True))
             if mission is not None:
                 _load(software.missions, mission)
-                software.take_mission(software.clock.monotonic())
+            software.take_mission(software.clock.monotonic())
             if start:
                 software.start()
             with until_asked() as asked:

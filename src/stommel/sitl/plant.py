@@ -158,7 +158,8 @@ class Plant:
     def _felt_of(self, readings: tuple[Any, ...], field: Vector, currents: Currents) -> Felt:
         mass, r_px, broken = self.setup.equipment.plant.mass, self.setup.x[R_PX], self.wear.switches == 0.0
         fore, aft = bool(r_px >= mass.high - 1e-9), bool(r_px <= mass.low + 1e-9)
-        return Felt(Readings(*readings), field, currents, fore and not broken, aft and not broken)
+        plain = (value.item() if isinstance(value, np.generic) else value for value in readings)
+        return Felt(Readings(*plain), field, currents, fore and not broken, aft and not broken)
 
     def spare(self, depth: float) -> float:
         """Volume by which the vehicle as it is now would be too light at a depth [m3]; negative if it would sink."""

@@ -1,5 +1,6 @@
 """What outlives a restart. Oracle: what was kept before the power was cut, by the disk that cuts it anywhere."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -69,3 +70,10 @@ def test_numbers_out_of_range_are_no_copy(tmp_path: Path, key: str) -> None:
     opened = ContinuityStore(FolderStorage(tmp_path))
     assert opened.kept == Continuity()
     assert key in opened.notes[0]
+
+
+def test_a_pipe_in_the_place_of_a_copy_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / COPIES[0])
+    opened = ContinuityStore(FolderStorage(tmp_path))
+    assert opened.kept == Continuity()
+    assert "is no regular file" in opened.notes[0]

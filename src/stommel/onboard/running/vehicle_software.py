@@ -100,7 +100,6 @@ class VehicleSoftware:
         self.coordinator = Coordinator(configuration.coordinator, t, logbook=self.logbook, store=self.kept)
         for note in (*self.missions.notes, *self.kept.notes):
             self._tell(t, "store", note)
-        self.take_mission(t)
 
     def take_mission(self, t: float) -> None:
         """Fly the mission that the store holds from now on."""

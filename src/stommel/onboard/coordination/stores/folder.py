@@ -1,6 +1,8 @@
 """A folder of the disk as storage: where the bytes of logbook and stores meet the operating system."""
 
+import errno
 import os
+import stat
 import sys
 from contextlib import suppress
 from pathlib import Path
@@ -41,7 +43,10 @@ class FolderStorage:
 
     def read(self, name: str) -> bytes:
         """Content of a file."""
-        return (self._folder / name).read_bytes()
+        path = self._folder / name
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise OSError(errno.EINVAL, "is no regular file", name)  # a pipe would be waited for
+        return path.read_bytes()
 
     def create(self, name: str) -> FolderFile:
         """Begin a new file; one that is there already is an OSError."""

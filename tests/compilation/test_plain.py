@@ -237,3 +237,19 @@ def test_an_engine_runs_without_the_compiler() -> None:
         env=os.environ | {"STOMMEL_COMPILE": "0"}, capture_output=True, text=True, check=True,
     )  # fmt: skip
     assert float(done.stdout) == pytest.approx(80.0, abs=0.5)
+
+
+def test_nothing_is_compiled_where_it_is_forbidden_for_a_while() -> None:
+    """Oracle: the modules of a process that asks 2000 times, which is no short question."""
+    program = (
+        "import sys\n"
+        "from stommel.compilation import without_compiler\n"
+        "from stommel.control.guidance import course_to_steer\n"
+        "with without_compiler():\n"
+        "    for _ in range(2000):\n"
+        "        course_to_steer(1.0, 0.0, 0.0, 0.0, 1.0, (0.0, 0.0), 0.3)\n"
+        "assert 'numba' not in sys.modules\n"
+        "course_to_steer(1.0, 0.0, 0.0, 0.0, 1.0, (0.0, 0.0), 0.3)\n"
+        "assert 'numba' in sys.modules\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=120, env=os.environ)

@@ -66,4 +66,4 @@ def _speed_column() -> "ProgressColumn":
             left = (1.0 - task.completed) * task.fields["whole"] / speed
             return Text(f"{speed:,.0f} x real time, {_left(left)}")
 
-    return Speed(Column(min_width=34, justify="right"))
+    return Speed(Column(min_width=34, justify="right", no_wrap=True))

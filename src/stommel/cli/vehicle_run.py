@@ -1,7 +1,6 @@
 """`stommel vehicle run`: the vehicle's coordination software on real ports."""
 
 import hashlib
-import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -41,7 +40,7 @@ def run(
 
     The nodes of the bus come up by themselves if this program stops: they stop and brake, then blow ballast.
     """
-    os.environ.setdefault("STOMMEL_COMPILE", "0")  # a small board has no compiler, and a vehicle flies what it tested
+    from stommel.compilation import without_compiler
     from stommel.onboard.coordination.config import read_configuration
     from stommel.onboard.running.folders import claimed
     from stommel.onboard.running.ports import open_ports
@@ -57,7 +56,8 @@ def run(
             software.take_mission(software.clock.monotonic())
             if start:
                 software.start()
-            with until_asked() as asked:
+            # a small board has no compiler, and a vehicle flies what was tested
+            with without_compiler(), until_asked() as asked:
                 figures = software.run(LONGEST if seconds is None else seconds, asked)
     finally:
         ports.close()

@@ -30,6 +30,8 @@ class _Question:
     """What is being asked of this process: one question, or any number of them (a library)."""
 
     is_one = False
+    never = False
+    """Nothing is compiled, however long it takes."""
     is_running = False
     """A compiled function is running as plain Python, and may call others."""
     calls = 0
@@ -49,6 +51,16 @@ def one_question() -> Iterator[None]:
         _question.is_one = before
 
 
+@contextmanager
+def without_compiler() -> Iterator[None]:
+    """Run all as plain Python here however long it takes, as a vehicle's small computer does."""
+    before, _question.never = _question.never, True
+    try:
+        yield
+    finally:
+        _question.never = before
+
+
 @cache
 def is_available() -> bool:
     """Tell whether there is a compiler, and nobody forbids it."""
@@ -56,9 +68,13 @@ def is_available() -> bool:
     return not forbidden and find_spec("numba") is not None
 
 
+def _may_compile() -> bool:
+    return is_available() and not _question.never
+
+
 def runs_plain() -> bool:
     """Tell whether a function without machine code runs as plain Python now."""
-    return not is_available() or _question.is_running or (_question.is_one and _question.calls <= PATIENCE)
+    return not _may_compile() or _question.is_running or (_question.is_one and _question.calls <= PATIENCE)
 
 
 def run_plain(function: Callable[..., Any], arguments: tuple[Any, ...], named: Mapping[str, Any]) -> Any:
@@ -73,10 +89,10 @@ def run_plain(function: Callable[..., Any], arguments: tuple[Any, ...], named: M
 
     _question.calls += 1
     if _question.is_running:
-        if _question.calls > PATIENCE and is_available():
+        if _question.calls > PATIENCE and _may_compile():
             raise _TooLongError
         return function(*arguments, **named)
-    given = (*arguments, *named.values()) if is_available() else ()
+    given = (*arguments, *named.values()) if _may_compile() else ()
     arrays = [one for one in given if isinstance(one, np.ndarray) and one.flags.writeable]
     before = [array.copy() for array in arrays]
     _question.is_running = True
@@ -84,7 +100,7 @@ def run_plain(function: Callable[..., Any], arguments: tuple[Any, ...], named: M
         with np.errstate(all="ignore"):
             return function(*map(_by_name, arguments), **{name: _by_name(one) for name, one in named.items()})
     except (_TooLongError, ArithmeticError, ValueError) as error:
-        if not is_available():
+        if not _may_compile():
             raise
         for array, old in zip(arrays, before, strict=True):
             array[...] = old

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -105,6 +106,13 @@ def test_a_dead_pump_in_a_descent_is_counted_apart_and_a_sound_vehicle_passes(tr
 
 def _of_days(mission: Mission, days: float) -> Mission:
     return replace(mission, scenario=mission.scenario.model_copy(update={"duration_days": days}))
+
+
+def test_without_any_power_a_descent_is_counted_apart_and_no_missing_reaction_is_blamed(trial: Mission) -> None:
+    """Oracle: all three computers are off below 15 V, in the descent in which seed 175 of a campaign found it."""
+    verdict = fly_with(with_seed(trial, 175), (Fault("supply_drop", "", 2145.0, inf, 9.257),))
+    assert verdict.verdict == UNSURVIVABLE
+    assert verdict.why.startswith("supply_drop: lost")
 
 
 def test_an_exception_that_escapes_fails(trial: Mission, monkeypatch: pytest.MonkeyPatch) -> None:

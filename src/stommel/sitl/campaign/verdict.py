@@ -56,7 +56,9 @@ class Watch:
             self._say("pump and valve work against each other")
         if view is not None and not isfinite(view.commands.V_b + view.commands.r_px + view.commands.steering):
             self._say(f"commands that are no numbers: {view.commands}")
-        if plant.depth <= plant.setup.equipment.hull.rating + RATING_MARGIN or is_aborting(system):
+        runs = system.inject.runs
+        powerless = not (runs(COORDINATOR) or runs(MOTION))  # nobody is left who could react
+        if plant.depth <= plant.setup.equipment.hull.rating + RATING_MARGIN or is_aborting(system) or powerless:
             self._deep_since = None
         elif self._deep_since is None:
             self._deep_since = plant.time

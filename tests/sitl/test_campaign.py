@@ -115,6 +115,14 @@ def test_without_any_power_a_descent_is_counted_apart_and_no_missing_reaction_is
     assert verdict.why.startswith("supply_drop: lost")
 
 
+def test_a_pump_that_dies_at_the_surface_is_found_before_the_dive(trial: Mission) -> None:
+    """Oracle: the vehicle stays where it can be fetched; its first dive would begin after 171 s, and be the last."""
+    short = _of_days(trial, 0.008)
+    found = fly_with(short, (Fault("pump_dead", "", 100.0, inf, 0.0),))
+    assert found.verdict == PASSED, found
+    assert "waiting at the surface, at 0.0 m; abort" in found.ending
+
+
 def test_an_exception_that_escapes_fails(trial: Mission, monkeypatch: pytest.MonkeyPatch) -> None:
     flight = FaultFlight(_of_days(trial, 0.001), ())
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 
 from stommel.control.commands import Commands
+from stommel.control.dive_cycle import SURFACE
 from stommel.control.orders import Orders
 from stommel.instruments.gnss.driver import GnssDriver, GnssState
 from stommel.instruments.gnss.fix import Fix
@@ -36,6 +37,8 @@ PORTS = (COMPASS, GNSS, RADIO)
 
 GPS_PATIENCE = 10.0
 """Time after switching on in which a receiver need not say anything [s]."""
+PROVING_TIME = 45.0
+"""Before a dive, in which the drives prove themselves again: a test that finds a dead pump takes half a minute [s]."""
 CTD_PATIENCE = 10.0
 """Time beyond two intervals without a sample, after which the payload is silent [s]."""
 
@@ -229,6 +232,13 @@ class Coordinator:
         self._radio_since = min(self._radio_since, t) if commands.radio else float("inf")
         self._sampling_since = min(self._sampling_since, t) if commands.sampling else float("inf")
 
+    def _dives_soon(self, state: ExecutiveState, t: float) -> bool:
+        """Whether the stay at the surface is nearly over: a pump that died since it last ran must be found up here."""
+        memory, orders = self.pilot.memory, self.pilot.orders
+        if state.state is not State.COMMUNICATE or memory is None or orders is None or state.phase != SURFACE:
+            return False
+        return t - float(memory["since"]) >= orders.dives.surface_time - PROVING_TIME
+
     def _keep_alive(self, t: float) -> list[Frame]:
         """Frames of a controller that sleeps on: the nodes hold what they were told."""
         return [self._encoder.frame("Sync", vehicle_time=_sayable(t)), *self._heartbeat.poll(t, NodeState.Operational)]
@@ -253,7 +263,7 @@ class Coordinator:
                 sample_interval=self.settings.sample_interval,
             )
         )
-        frames += self._nodes.step(self.perception.watch, state, t)
+        frames += self._nodes.step(self.perception.watch, state, t, dives_soon=self._dives_soon(state, t))
         frames += self._heartbeat.poll(t, NodeState.Operational)
         return frames
 

@@ -25,6 +25,7 @@ class NodesControl:
     """Whether oil, moving mass and steering passed the motion node's self-test."""
     _asked: dict[tuple[int, str], float] | None = None
     _restarts: int = 0
+    _tested_for_dive: bool = False
 
     @classmethod
     def of(cls, encoder: Encoder, restarts: int) -> "NodesControl":
@@ -35,8 +36,8 @@ class NodesControl:
         """Take a message: acknowledgements of own commands count."""
         self.sender.take(received, t)
 
-    def step(self, watch: NodeWatch, state: ExecutiveState, t: float) -> list[Frame]:
-        """Return the frames of commands that are due."""
+    def step(self, watch: NodeWatch, state: ExecutiveState, t: float, *, dives_soon: bool = False) -> list[Frame]:
+        """Return the frames of commands that are due; shortly before a dive the drives prove themselves again."""
         if watch.restarts_seen != self._restarts:
             self._restarts = watch.restarts_seen
             self.drives_proven = (False, False, False)
@@ -45,6 +46,9 @@ class NodesControl:
                 self._ask(node, "Start", t)
         if watch.state_of(MOTION) == NodeState.Safe and state.state is State.START_UP:
             self._ask(MOTION, "ClearFault", t)  # an abort of before is over
+        if dives_soon and not self._tested_for_dive:
+            self.sender.send(MOTION, "SelfTest", 0, t)
+        self._tested_for_dive = dives_soon
         if state.self_test:
             self._ask(MOTION, "SelfTest", t)
         return self.sender.poll(t)

@@ -22,6 +22,7 @@ OPENS = {
     "design/published/__init__.py": "the package's own data",
     "ocean/reading/classic.py": "after files/opening.py has looked at the file",
     "onboard/coordination/stores/folder.py": "the vehicle's own disk",
+    "onboard/running/folders.py": "the lock of a vehicle's folders",
     "studies/study.py": "digest of ocean files that were read before",
     "studies/journal.py": "its lock",
     "studies/result.py": "what it has written itself",

@@ -1,12 +1,11 @@
 """`stommel sitl campaign` and `stommel sitl replay`: missions on which things break, and one of them again."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stommel.cli.count_progress import count_progress
 from stommel.cli.finish import finish
 from stommel.cli.numbers import count_option, seed_option
 from stommel.cli.options import JsonOption
@@ -55,7 +54,7 @@ def campaign(
     kit = load_kit(TRIAL if scenario is None else scenario)
     seeds, folder = range(seed, seed + runs), output or Path("campaign")
     try:
-        with _progress() as progress:
+        with count_progress("flights") as progress:
             done = run_campaign(
                 kit, folder, seeds, workers=workers, scheduler=scheduler, restart=restart, progress=progress
             )
@@ -65,29 +64,6 @@ def campaign(
     finish(done, done.written, as_json, _show)
     if done.as_json()["failed"]:
         raise typer.Exit(1)
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[int, int], None]]:
-    """Bar with an estimate on the error output; silent where nobody watches."""
-    from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
-
-    console = Console(stderr=True)
-    columns = (
-        TextColumn("flights"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("left"),
-        TimeRemainingColumn(),
-    )  # fmt: skip
-    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
-        task = bar.add_task("", total=None)
-        yield lambda finished, runs: bar.update(task, completed=finished, total=runs)
 
 
 def _show(done: "Campaign") -> None:

@@ -1,13 +1,12 @@
 """`stommel study`: many missions, over any field of vehicle, mission, ocean and sensors."""
 
 from collections import Counter
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stommel.cli.count_progress import count_progress
 from stommel.cli.finish import finish
 from stommel.cli.numbers import count_option
 from stommel.cli.options import JsonOption
@@ -72,7 +71,7 @@ def study(
     target = output if output is not None else _RESULT(f"{file.stem}.nc")
     refuse_same("--output", target, plots)
     try:
-        with _progress() as progress:
+        with count_progress("missions") as progress:
             done = run_study(loaded, target, workers=workers, scheduler=scheduler, restart=restart, progress=progress)
     except StudyInterruptedError as error:
         typer.echo(str(error), err=True)
@@ -86,33 +85,6 @@ def study(
     found = None if loaded.kit.vehicle is None else vehicle_check(loaded.kit.vehicle)
     answer = done.as_json() | {"vehicle_check": found}
     finish(answer, written, as_json, lambda _: _show(done, found))
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[int, int], None]]:
-    """Bar with an estimate on the error output; silent where nobody watches."""
-    from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
-
-    console = Console(stderr=True)
-    columns = (
-        TextColumn("missions"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn("left"),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
-        task = bar.add_task("missions", total=None)
-        yield lambda finished, runs: bar.update(task, completed=finished, total=runs)
 
 
 def _show(done: "Finished", found: dict[str, Any] | None) -> None:

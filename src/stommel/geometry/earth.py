@@ -8,6 +8,9 @@ from stommel.geometry.attitude import wrapped
 SEMI_MAJOR, FLATTENING = 6378137.0, 1.0 / 298.257223563
 """WGS 84."""
 
+MEAN_RADIUS = 6.371e6
+"""Of the sphere that is good enough for bounds, faults and pictures [m]."""
+
 
 @inlined
 def metres_per_radian(latitude: float) -> tuple[float, float]:

@@ -6,13 +6,12 @@ from typing import NamedTuple
 
 from stommel.control.memory import MEMORY
 from stommel.geometry.attitude import wrapped
+from stommel.geometry.earth import MEAN_RADIUS
 from stommel.onboard.coordination.failsafes import Reaction
 from stommel.onboard.coordination.view import View
 from stommel.sitl.observer import Observer
 from stommel.sitl.system import System
 
-EARTH_RADIUS = 6_371_000.0
-"""[m]; good for distances that are only shown."""
 _MOST_HOURS = 1e5
 """A longer time is none that is known: at rest, or just switched on [h]."""
 WELL, QUIET, ODD, BAD = "well", "quiet", "odd", "bad"
@@ -199,7 +198,7 @@ def _place(system: System) -> tuple[Line, ...]:
         to_latitude, to_longitude = (float(angle) for angle in orders.waypoints[k])
         north = to_latitude - latitude
         east = wrapped(to_longitude - longitude) * cos(0.5 * (latitude + to_latitude))
-        away = EARTH_RADIUS * hypot(north, east)
+        away = MEAN_RADIUS * hypot(north, east)
         bearing = _course(atan2(east, north))
         far = f"{away:.0f} m" if away < 3000.0 else f"{away / 1e3:.1f} km"
         lines.append(Line("waypoint", f"{k + 1} of {len(orders.waypoints)}, {far} at {bearing}"))

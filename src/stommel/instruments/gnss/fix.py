@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple
 
-_EARTH_RADIUS = 6371e3
-"""For a distance that is compared with a bound [m]."""
+from stommel.geometry.earth import MEAN_RADIUS
+
 _ORIGIN = math.radians(1e-5)
 """A metre around 0,0, where receivers without a position say that they are."""
 
@@ -75,7 +75,7 @@ def distance(fix: Fix, other: Fix) -> float:
     """Along the sphere [m]."""
     half_lat, half_lon = (fix.latitude - other.latitude) / 2.0, (fix.longitude - other.longitude) / 2.0
     h = math.sin(half_lat) ** 2 + math.cos(fix.latitude) * math.cos(other.latitude) * math.sin(half_lon) ** 2
-    return 2.0 * _EARTH_RADIUS * math.asin(min(1.0, math.sqrt(h)))
+    return 2.0 * MEAN_RADIUS * math.asin(min(1.0, math.sqrt(h)))
 
 
 class FixRules:

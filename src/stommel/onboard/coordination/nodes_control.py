@@ -1,6 +1,6 @@
 """What the coordinator tells nodes beside set points: to start, to test themselves, to forget a fault."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from stommel.messages.codec import Encoder, Received
 from stommel.messages.commanding import CommandSender, Outcome
@@ -23,14 +23,14 @@ class NodesControl:
     sender: CommandSender
     drives_proven: tuple[bool, bool, bool] = (False, False, False)
     """Whether oil, moving mass and steering passed the motion node's self-test."""
-    _asked: dict[tuple[int, str], float] | None = None
+    _asked: dict[tuple[int, str], float] = field(default_factory=dict)
     _restarts: int = 0
     _tested_for_dive: bool = False
 
     @classmethod
     def of(cls, encoder: Encoder, restarts: int) -> "NodesControl":
         """Return the control of a coordinator that has started so often before."""
-        return cls(CommandSender(encoder, restarts=restarts), _asked={})
+        return cls(CommandSender(encoder, restarts=restarts))
 
     def take(self, received: Received, t: float) -> None:
         """Take a message: acknowledgements of own commands count."""
@@ -72,7 +72,6 @@ class NodesControl:
             self.sender.send(node, "ClearFault", 0, t)
 
     def _ask(self, node: int, command: str, t: float) -> None:
-        asked = self._asked if self._asked is not None else {}
-        if t >= asked.get((node, command), t):
+        if t >= self._asked.get((node, command), t):
             self.sender.send(node, command, 0, t)
-            asked[node, command] = t + ASK_AGAIN
+            self._asked[node, command] = t + ASK_AGAIN

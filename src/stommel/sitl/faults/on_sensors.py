@@ -4,13 +4,11 @@ from collections.abc import Iterable
 from math import cos, nan, radians
 from typing import Any
 
+from stommel.geometry.earth import MEAN_RADIUS
 from stommel.instruments.gpctd.device import CtdTruth
 from stommel.sitl.faults import table
 from stommel.sitl.faults.acting import Acting
 from stommel.sitl.plant import Felt
-
-EARTH_RADIUS = 6.371e6
-"""[m]"""
 
 READINGS = {
     "pressure": ("depth", 1.0), "altimeter": ("altitude", 1.0), "vacuum": ("internal_pressure", 1.0),
@@ -91,8 +89,8 @@ def _through_gps(one: Acting, felt: Felt) -> Felt:
 
 def _moved(felt: Felt, north: float, east: float) -> Felt:
     r = felt.readings
-    latitude = r.fix_latitude + north / EARTH_RADIUS
-    return _with(felt, fix_latitude=latitude, fix_longitude=r.fix_longitude + east / (EARTH_RADIUS * cos(latitude)))
+    latitude = r.fix_latitude + north / MEAN_RADIUS
+    return _with(felt, fix_latitude=latitude, fix_longitude=r.fix_longitude + east / (MEAN_RADIUS * cos(latitude)))
 
 
 def _with(felt: Felt, **readings: Any) -> Felt:

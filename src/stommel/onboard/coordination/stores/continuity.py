@@ -1,11 +1,10 @@
 """What must outlive a restart of the software: a few numbers in two copies, of which the newer sound one counts."""
 
-import hashlib
 import json
 import math
-from contextlib import suppress
 from typing import NamedTuple
 
+from stommel.onboard.coordination.stores.replacing import replace_whole, sealed, unsealed
 from stommel.onboard.coordination.stores.storage import Storage
 
 _COPIES = ("continuity-a", "continuity-b")
@@ -61,33 +60,20 @@ class ContinuityStore:
         if continuity == self.kept and self.written:
             return
         serial = self._serial + 1
-        told = json.dumps(continuity._asdict() | {"serial": serial}).encode()
+        told = json.dumps(continuity._asdict() | {"serial": serial})
         name = _COPIES[serial % 2]
         try:
-            self._write(name, hashlib.sha256(told).hexdigest().encode() + b" " + told)
+            replace_whole(self._storage, name, sealed(told), f"{name}.part")
         except OSError:
             self.written = False
             return
         self._serial, self.kept, self.written = serial, continuity, True
 
-    def _write(self, name: str, content: bytes) -> None:
-        part = f"{name}.part"
-        with suppress(FileNotFoundError):
-            if part in self._storage.sizes():
-                self._storage.remove(part)
-        file = self._storage.create(part)
-        try:
-            file.write(content)
-            file.sync()
-        finally:
-            file.close()
-        self._storage.rename(part, name)
-
 
 def _copy_of(content: bytes) -> tuple[int, Continuity]:
     """Serial number and content of a copy; a ValueError where it is damaged."""
-    digest, _, told = content.partition(b" ")
-    if digest.decode("ascii", "replace") != hashlib.sha256(told).hexdigest():
+    told = unsealed(content)
+    if told is None:
         raise ValueError("its SHA-256 is another")
     found = json.loads(told)
     return int(found["serial"]), _sound(found)

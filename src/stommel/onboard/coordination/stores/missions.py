@@ -16,6 +16,7 @@ from stommel.control.orders import Orders
 from stommel.control.orders_file import OrdersHeader, parse_orders
 from stommel.errors import FileError, Problem, StommelError
 from stommel.onboard.coordination.stores.reception import Reception, ReceptionError
+from stommel.onboard.coordination.stores.replacing import replace_whole, sealed, unsealed
 from stommel.onboard.coordination.stores.storage import Storage
 from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits, refusals
 
@@ -184,7 +185,8 @@ class MissionStore:
 
     def _keep(self, mission: StoredMission, text: bytes) -> None:
         try:
-            self._write(_name(mission.number), _head(mission.sha256) + b"\n" + text)
+            content = _head(mission.sha256) + b"\n" + text
+            replace_whole(self._storage, _name(mission.number), content, _PART)
         except OSError as error:
             raise MissionStoreError(f"mission: cannot be kept: {error.strerror or error}") from error
         self._highest = mission.number
@@ -196,18 +198,6 @@ class MissionStore:
                 found = _NAME.fullmatch(name)
                 if found and int(found[1]) not in kept:
                     self._storage.remove(name)
-
-    def _write(self, name: str, content: bytes) -> None:
-        """Bring a file into being under its name: whole, on the disk, or not at all."""
-        if _PART in self._storage.sizes():
-            self._storage.remove(_PART)
-        file = self._storage.create(_PART)
-        try:
-            file.write(content)
-            file.sync()
-        finally:
-            file.close()
-        self._storage.rename(_PART, name)
 
     # its time
 
@@ -225,7 +215,7 @@ class MissionStore:
             return
         told = json.dumps({"number": self.active.number, "started": now})
         try:
-            self._write(_STARTED, f"{_digest(told.encode())} {told}".encode())
+            replace_whole(self._storage, _STARTED, sealed(told), _PART)
         except OSError as error:
             raise MissionStoreError(f"mission: its start cannot be kept: {error.strerror or error}") from error
         self.started = now
@@ -235,13 +225,13 @@ class MissionStore:
         if self.active is None:
             return None
         try:
-            digest, _, told = self._storage.read(_STARTED).partition(b" ")
+            told = unsealed(self._storage.read(_STARTED))
         except FileNotFoundError:
             return None
         except OSError as error:
             self.notes.append(f"the start of the mission cannot be read: {error.strerror or error}")
             return None
-        if digest.decode("ascii", "replace") != _digest(told):
+        if told is None:
             self.notes.append("the start of the mission is damaged: it counts as not started")
             return None
         found = json.loads(told)
@@ -267,7 +257,3 @@ def _name(number: int) -> str:
 def _head(sha256: str) -> bytes:
     """First line of a stored mission."""
     return f"stommel mission 1 sha256={sha256}".encode()
-
-
-def _digest(told: bytes) -> str:
-    return hashlib.sha256(told).hexdigest()

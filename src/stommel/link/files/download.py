@@ -82,7 +82,7 @@ class Download:
         """How far it is."""
         size = self.file.identity.size if self.file is not None else None
         done = self.file.received.bytes if self.file is not None else 0
-        rate = self._fetch.rate if self._fetch is not None and self.state is State.FETCHING else 0.0
+        rate = self._fetch.pace.rate if self._fetch is not None and self.state is State.FETCHING else 0.0
         left = (size - done) / rate if size is not None and rate > 0.0 else None
         loss = self._fetch.loss.share if self._fetch is not None else 0.0
         return Progress(self.state, self.is_paused, self.reason, done, size, rate, left, self.counts.duplicate, loss)

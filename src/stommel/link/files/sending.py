@@ -4,10 +4,10 @@ from collections import deque
 from collections.abc import Callable
 from typing import NamedTuple
 
-from stommel.link.files.fetching import PROBE, unpacked_ranges
 from stommel.link.files.loss import MOST_SEGMENT, SHORT_EVERY
 from stommel.link.files.port import FileRefusalError, FtpError
 from stommel.link.files.ranges import Range
+from stommel.link.files.request_words import PROBE, unpacked_ranges
 from stommel.link.files.values import octets, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received

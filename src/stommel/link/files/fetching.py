@@ -82,7 +82,7 @@ class Fetch:
         self._sent_at: dict[int, float] = {}
         self._serial: int = transfer * 151 % 256 if before is None else before._serial
         """Begins elsewhere in each transfer, for the other end does not obey a number twice."""
-        self._epoch: int = transfer * 83 % 256 if before is None else (before._epoch + 1) % 256
+        self._epoch: int | None = None if before is None else before._epoch
         """Is another one whenever what was asked for before shall be forgotten."""
         self._is_begun = False
         self._last_said = self._last_asked = float("-inf")
@@ -110,7 +110,8 @@ class Fetch:
 
     def _forget(self) -> None:
         """Let the other end forget what was asked for, as soon as it hears the next request."""
-        self._epoch = (self._epoch + 1) % 256
+        if self._epoch is not None:
+            self._epoch = (self._epoch + 1) % 256
 
     def wake(self) -> None:
         """The other end is heard again after silence: ask now."""
@@ -233,6 +234,8 @@ class Fetch:
 
     def _say(self, t: float, outbox: Outbox, serial: int, ranges: list[Range]) -> None:
         base, packed = packed_ranges(ranges)
+        if self._epoch is None:  # after a restart it is hardly the same
+            self._epoch = int(t * 997.0) % 256
         segment = self.loss.choose()
         flags = PROBE if self.loss.is_probing else 0
         system, component = self.peer

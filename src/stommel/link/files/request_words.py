@@ -1,5 +1,6 @@
-"""What lies in FILE_REQUEST: a flag, and ranges as pairs of distance and size."""
+"""What lies in FILE_REQUEST: a flag, ranges as pairs of distance and size, and the number of its transfer."""
 
+import zlib
 from collections.abc import Iterable
 
 from stommel.link.files.ranges import Range, Ranges
@@ -10,6 +11,11 @@ MOST_RANGES = 60
 """Of a request."""
 LONGEST = 0xFFFF
 """Bytes of a range, and of the distance to the next."""
+
+
+def transfer_number(what: str, own: tuple[int, int], path: str) -> int:
+    """Return the number of the transfer of a file: after a restart the same, so that what is on its way counts."""
+    return zlib.crc32(f"{what} {own[0]} {own[1]} {path}".encode()) % 0xFFFF + 1
 
 
 def packed_ranges(ranges: Iterable[Range]) -> tuple[int, bytes]:

@@ -69,10 +69,10 @@ class Transfer:
             self.forget_requests()
             self._epoch = values["epoch"]
         serial = values["serial"]
+        if serial in self._obeyed:
+            return
         self._segment = min(max(values["segment"], 1), MOST_SEGMENT)
         self._probe = bool(values["flags"] & PROBE)
-        if serial in self._obeyed or not values["count"]:
-            return
         self._obeyed.append(serial)
         self._echo = serial
         for first, last in unpacked_ranges(values["base"], values["count"], packed):

@@ -16,7 +16,7 @@ from stommel.messages.mavlink import message_named
 from tests.link.files.fakes import MemoryDisk, MemoryFiles, noise
 from tests.link.files.pair import SHORE, VEHICLE
 
-DATA = noise(8000, 21)
+DATA = noise(20_000, 21)
 FRAMES = st.integers(1, 12)
 
 
@@ -63,6 +63,19 @@ class Resuming(RuleBasedStateMachine):
         for received in self.to_shore[:most]:
             self.download.take(received, self.t)
         del self.to_shore[:most]
+
+    @rule(rounds=st.integers(1, 12), every=st.integers(2, 7))
+    def they_talk_and_some_is_lost(self, rounds: int, every: int) -> None:
+        for k in range(rounds):
+            self.t += 0.3
+            self.to_vehicle += self.say(self.download, SHORE, 3)
+            for received in self.to_vehicle:
+                self.server.take(received, self.t)
+            self.to_shore += self.say(self.server, VEHICLE, 3)
+            for j, received in enumerate(self.to_shore):
+                if (j + k + 1) % every:
+                    self.download.take(received, self.t)
+            self.to_vehicle, self.to_shore = [], []
 
     @rule(most=FRAMES)
     def air_loses(self, most: int) -> None:
@@ -140,5 +153,5 @@ class Resuming(RuleBasedStateMachine):
 
 TestResuming = Resuming.TestCase
 TestResuming.settings = settings(
-    max_examples=60, stateful_step_count=40, deadline=None, suppress_health_check=list(HealthCheck)
+    max_examples=60, stateful_step_count=30, deadline=None, suppress_health_check=list(HealthCheck)
 )

@@ -125,7 +125,7 @@ class Sender:
         self.broken: list[Broken] = []
         """Transfers that ended because their file cannot be read; whoever looks takes them out."""
 
-    def open(self, peer: Peer, number: int, transfer: Transfer, t: float) -> None:
+    def begin(self, peer: Peer, number: int, transfer: Transfer, t: float) -> None:
         """Begin a transfer; the one that was silent longest gives way. The same one goes on."""
         there = self._transfers.get((peer, number))
         if there is not None and there.of == transfer.of and there.size == transfer.size:

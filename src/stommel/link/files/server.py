@@ -93,7 +93,7 @@ class FileServer:
             self._answer_identity(peer, number, found.result, 0, reason=str(found))
             return
         transfer = Transfer(size, lambda offset, length: self._port.read(path, offset, length), path)
-        self._sender.open(peer, number, transfer, t)
+        self._sender.begin(peer, number, transfer, t)
         self._answer_identity(peer, number, FileResult.OK, size, sha256=found)
 
     def _request(self, received: Received, t: float) -> None:

@@ -103,7 +103,7 @@ class Upload:
         self._asking.goes_on(t)
         if not self._sender.request(received, t):
             transfer = Transfer(len(self._content), self._read, self.path)
-            self._sender.open((received.system, received.component), self.transfer, transfer, t)
+            self._sender.begin((received.system, received.component), self.transfer, transfer, t)
             self._sender.request(received, t)
 
     def _read(self, offset: int, length: int) -> bytes:

@@ -147,7 +147,7 @@ class VehicleCommands:
 # what became of each, by the decisions since
 
 
-def _started(_: VehicleCommands, begun: _Begun, view: View) -> Progress:
+def _started(_: VehicleCommands, _begun: _Begun, view: View) -> Progress:
     executive = view.executive
     if executive.state is Mode.ABORT:
         return Progress(State.FAILED, words="an abort stands: clear it first")
@@ -157,7 +157,7 @@ def _started(_: VehicleCommands, begun: _Begun, view: View) -> Progress:
     return DONE._replace(words=f"unproven yet: {waits}" if waits else "")
 
 
-def _held(_: VehicleCommands, begun: _Begun, view: View) -> Progress:
+def _held(_: VehicleCommands, _begun: _Begun, view: View) -> Progress:
     return DONE if not view.executive.started else IN_PROGRESS
 
 
@@ -168,18 +168,18 @@ def _come_up(_: VehicleCommands, begun: _Begun, view: View) -> Progress:
     return Progress(State.IN_PROGRESS, min(max(round(100.0 * (1.0 - left)), 0), 99))
 
 
-def _aborted(_: VehicleCommands, begun: _Begun, view: View) -> Progress:
+def _aborted(_: VehicleCommands, _begun: _Begun, view: View) -> Progress:
     return DONE if view.executive.state is Mode.ABORT else IN_PROGRESS
 
 
-def _cleared(_: VehicleCommands, begun: _Begun, view: View) -> Progress:
+def _cleared(_: VehicleCommands, _begun: _Begun, view: View) -> Progress:
     left = ", ".join(alarm.name for alarm in view.safety.active)
     if view.executive.state is Mode.ABORT:
         return Progress(State.FAILED, words=f"still so: {left or 'the abort'}")
     return DONE._replace(words=f"still so: {left}" if left else "")
 
 
-def _checked(_: VehicleCommands, begun: _Begun, view: View) -> Progress:
+def _checked(_: VehicleCommands, _begun: _Begun, view: View) -> Progress:
     unproven = ", ".join(name for name in view.safety.unproven if name != "mission")
     if not unproven:
         return DONE

@@ -11,8 +11,8 @@ from stommel.geometry.attitude import attitude_of
 from stommel.machinery.hull.floating import water_line
 from stommel.ocean.kernel.column import water_at
 from stommel.ocean.kernel.grid import TIME, Column
-from stommel.simulation.plant.motion import surplus_volume
 from stommel.simulation.mission_loop import Equipment
+from stommel.simulation.plant.motion import surplus_volume
 from stommel.simulation.plant.waves import antenna_height
 from stommel.sitl.plant import Plant
 

@@ -106,6 +106,24 @@ class Coordinator:
         """Ask for something, at the next decision, beside what was asked before it."""
         self._requests = OperatorRequests(*(a or b for a, b in zip(self._requests, requests, strict=True)))
 
+    def self_test(self) -> None:
+        """Have the motion node move each drive a little; `self_test_result` tells what came of it."""
+        self._nodes.ask_self_test()
+
+    @property
+    def self_test_result(self) -> str | None:
+        """Drives that did not follow in the self-test that was asked for last, in words; None until it is over."""
+        return self._nodes.self_test_result
+
+    def stay_at_surface(self, time: float) -> None:
+        """Stay at the surface for so long after each dive [s], until another mission is adopted."""
+        orders = self.pilot.orders
+        if orders is not None:
+            dives = orders.dives._replace(
+                surface_time=time, longest_surface_time=max(time, orders.dives.longest_surface_time)
+            )
+            self.pilot.orders = orders._replace(dives=dives)
+
     def adopt(self, orders: Orders, expires: float = float("inf"), mission: int = 0) -> None:
         """Take the orders of a mission that has been validated, and fly them until a time [s].
 

@@ -36,13 +36,13 @@ class Only:
     """A guard that believes one system and marks what it signs."""
 
     def __init__(self, system: int) -> None:
-        self.system, self.is_signing, self.asked = system, True, 0
+        self.system, self.signs, self.asked = system, True, 0
 
     def accept(self, raw: RawFrame, t: float) -> bool:
         self.asked += 1
         return raw.system == self.system
 
-    def sign(self, raw: bytes) -> bytes:
+    def sign(self, raw: bytes, t: float) -> bytes:
         return raw + b"S" * 13
 
 

@@ -101,7 +101,7 @@ class Session:
             self._ask_services(t)
             before = len(out)
             while room - len(out) >= LONGEST_FRAME and (outgoing := self.outbox.next()) is not None:
-                out += self._frame(outgoing)
+                out += self._frame(outgoing, t)
             if len(out) == before or self.outbox.waiting:
                 break
         if self.rate is not None:
@@ -162,12 +162,12 @@ class Session:
         self.failures += 1
         self.note(f"{type(service).__name__}: {what} ({type(error).__name__}: {error})"[:200])
 
-    def _frame(self, outgoing: Outgoing) -> bytes:
+    def _frame(self, outgoing: Outgoing, t: float) -> bytes:
         component = self.component if outgoing.component is None else outgoing.component
-        guard = self.guard if self.guard is not None and self.guard.is_signing else None
+        guard = self.guard if self.guard is not None and self.guard.signs else None
         frame = frame_bytes(
             message_named(outgoing.name), outgoing.payload, self.system, component, self._sequence,
             signed=guard is not None,
         )  # fmt: skip
         self._sequence = (self._sequence + 1) % 256
-        return frame if guard is None else guard.sign(frame)
+        return frame if guard is None else guard.sign(frame, t)

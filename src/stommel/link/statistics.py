@@ -128,7 +128,7 @@ class Statistics:
             retransmit_ratio=self.traffic.retransmit_ratio,
             bytes_waiting=session.outbox.waiting,
             surface_time_left=self._surface_time_left(),
-            is_signing=session.guard is not None and session.guard.is_signing,
+            is_signing=session.guard is not None and session.guard.signs,
         )
 
 

@@ -76,8 +76,9 @@ class Guard:
         self._heard_others: set[str] = set()
         self._problem = ""
         self._clocks: dict[Stream, float] = {}
+        self._speaks_next = False
         self.peer_has_next = False
-        """Whether the other end speaks with the new key, and the disk does not keep that yet."""
+        """Whether the other end was heard with the new key, and the disk does not keep that yet."""
         self._commit_at = float("-inf")
         if store is not None and storage is not None:
             self._open(store, storage)
@@ -164,7 +165,7 @@ class Guard:
         vehicle = self.system if self.keys is None else self.keys.vehicle
         keys = Keys(vehicle, made, key, unused=True)
         self._store.write(keys)
-        self._problem, self.peer_has_next = "", False
+        self._problem, self.peer_has_next, self._speaks_next = "", False, False
         self._begin(keys, self._storage)
 
     def hold(self, key: Key) -> None:
@@ -181,7 +182,7 @@ class Guard:
             raise KeyChangeError(f"the last change is not on the disk: {self._problem}")
         keys = self.keys._replace(next=key)
         self._store.write(keys)
-        self.keys = keys
+        self.keys, self._speaks_next = keys, False
 
     def _commit(self, t: float) -> None:
         """The other end speaks with the new key: drop the old one."""
@@ -211,7 +212,7 @@ class Guard:
         if self.keys is None or self.stamps is None:
             return frame
         key = self.keys.current
-        if self.keys.next is not None and (self.peer_has_next or frame[7:10] == _confirmation()):
+        if self.keys.next is not None and (self._speaks_next or frame[7:10] == _confirmation()):
             key = self.keys.next
         return signed(frame, key.secret, link, self.stamps.next(t))
 
@@ -242,6 +243,9 @@ class Guard:
             if not with_next:
                 return self._foreign(frame)
         refusal = self._dated(frame, self.stamps, t)
+        if with_next or refusal is None:
+            # also of an old frame: who has ever said it holds the key, and may hold no other
+            self._speaks_next = with_next
         if refusal is None and with_next:
             self._commit(t)
         return refusal

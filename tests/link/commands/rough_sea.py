@@ -163,9 +163,7 @@ class Voyage:
     # both ends
 
     def _start_server(self) -> None:
-        self.server = CommandServer(
-            *VEHICLE, Port(self.truth), Clock(self.truth), self.vehicle_disk, most=self.most
-        )
+        self.server = CommandServer(*VEHICLE, Port(self.truth), Clock(self.truth), self.vehicle_disk, most=self.most)
         self._server_began = self.truth.t
 
     def _start_client(self) -> None:
@@ -321,4 +319,6 @@ class Voyage:
 
     def _overtaken(self, abort: Command, at: float) -> list[str]:
         late = [one for one in self.truth.begun if one.command.given < abort.given and one.at > at]
-        return [f"{one.command.id:x}: given before an abort, begun after it" for one in late if one.command.number != ABORT]
+        return [
+            f"{one.command.id:x}: given before an abort, begun after it" for one in late if one.command.number != ABORT
+        ]

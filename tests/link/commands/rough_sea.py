@@ -219,7 +219,7 @@ class Voyage:
                     *draw.choice([("start", {}), ("hold", {}), ("hold", {}), ("radio-time", {"time": 600.0})]), t,
                     valid_for=draw.choice([5.0, 60.0, 200.0, 1000.0]), when=draw.choice(list(When)),
                 )  # fmt: skip
-            elif with_luck < 0.021 and len(self.given) < 8:
+            elif with_luck < 0.024 and len(self.given) < 8:
                 client.abort(t, valid_for=draw.choice([30.0, 300.0]))
             elif with_luck > 0.995 and (ids := [report.id for report in client.reports(t)]):
                 client.cancel(draw.choice(ids), t)

@@ -223,6 +223,22 @@ def test_a_killed_shore_station_follows_its_commands_to_the_end() -> None:
     assert [report.state for report in quay.client.reports(quay.shore_t)] == [State.DONE, State.DONE]
 
 
+def test_a_shore_station_that_was_killed_after_sending_does_not_call_a_command_unsent() -> None:
+    quay = Quay()
+    quay.down = lambda name: False
+    sent = quay.give("start", valid_for=20.0)
+    quay.exchange()
+    assert quay.port.numbers == [START]
+    quay.start_shore()
+    quay.client.cancel(sent, quay.shore_t)
+    assert not quay.state(sent).is_last
+    quay.run(40.0)
+    assert not quay.state(sent).is_last
+    quay.down = lambda name: True
+    quay.run(90.0)
+    assert quay.state(sent) is State.DONE
+
+
 def test_a_clock_that_is_set_back_takes_open_commands_back() -> None:
     quay = Quay()
     quay.up = lambda name: False

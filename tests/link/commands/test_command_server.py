@@ -167,9 +167,10 @@ def test_power_cut_in_the_middle_of_an_execution_leaves_its_outcome_unknown(
             quay.port.begun.append(begun)
         raise PowerCutError
 
-    with monkeypatch.context() as patch, pytest.raises(PowerCutError):
-        patch.setattr(quay.port, "begin", begin)
+    monkeypatch.setattr(quay.port, "begin", begin)
+    with pytest.raises(PowerCutError):
         answer(quay, said(one))
+    monkeypatch.undo()
     for _ in range(2):
         quay.start_vehicle()
         assert answer(quay, said(one)) == (

@@ -37,9 +37,14 @@ class Bench:
         return number == 30
 
     def say(
-        self, command: int, *parameters: float, confirmation: int = 0, is_int: bool = False, source: tuple[int, int] = GROUND,
+        self,
+        command: int,
+        *parameters: float,
+        confirmation: int = 0,
+        is_int: bool = False,
+        source: tuple[int, int] = GROUND,
         target: tuple[int, int] = VEHICLE,
-    ) -> list[tuple[str, Fields]]:  # fmt: skip
+    ) -> list[tuple[str, Fields]]:
         """Say a command as pymavlink packs it, and return what the vehicle answers."""
         values = [*parameters, *[0.0] * 7][:7]
         ground = common.MAVLink(None, *source)

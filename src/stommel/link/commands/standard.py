@@ -99,7 +99,7 @@ class StandardCommands:
             _number("DO_FLIGHTTERMINATION"): self._terminate,
             _number("REQUEST_MESSAGE"): self._request,
             _number("SET_MESSAGE_INTERVAL"): self._set_interval,
-            _number("REQUEST_AUTOPILOT_CAPABILITIES"): lambda _, t: self._request([_VERSION], t),
+            _number("REQUEST_AUTOPILOT_CAPABILITIES"): lambda _, t: self._request([float(_VERSION)], t),
         }
         self._repeatable = {_number(name) for name in ("REQUEST_MESSAGE", "SET_MESSAGE_INTERVAL")}
         self._repeatable.add(_number("REQUEST_AUTOPILOT_CAPABILITIES"))

@@ -19,7 +19,7 @@ def test_both_ends_know_how_the_link_is_and_tell_it() -> None:
     sync = TimeSync()
     vehicle = Session(1, 1, [Presence(lambda: SHORE_HEARTBEAT, period=0.2), TimeSync()])
     shore = Session(255, 190, [Presence(lambda: SHORE_HEARTBEAT, period=1.0), sync])
-    of_vehicle = Statistics(vehicle, surface_time_left=lambda: 77.0, refusals=lambda: Refusals(1, 2, 3))
+    of_vehicle = Statistics(vehicle, surface_time_left=lambda: 77.0, refusals=Refusals(1, 2, 3))
     of_shore = Statistics(shore, sync)
     vehicle.services.append(of_vehicle)
     shore.services.append(of_shore)

@@ -26,6 +26,37 @@ RELEASED = {
     "ENERGY_STATE": (47005, 200),
     "NAVIGATION_ESTIMATE": (47006, 203),
     "LINK_STATISTICS": (47007, 75),
+    "GLIDER_COMMAND": (47010, 116),
+    "GLIDER_COMMAND_ASK": (47011, 7),
+    "GLIDER_COMMAND_STATUS": (47012, 140),
+    "FILE_OPEN": (47020, 97),
+    "FILE_IDENTITY": (47021, 142),
+    "FILE_REQUEST": (47022, 236),
+    "FILE_DATA": (47023, 104),
+    "FILE_OFFER": (47024, 185),
+    "FILE_OUTCOME": (47025, 162),
+    "FILE_RELEASE": (47026, 79),
+    "KEY_CHANGE_OFFER": (47030, 186),
+    "KEY_CHANGE_ANSWER": (47031, 1),
+    "KEY_CHANGE_CONFIRM": (47032, 39),
+    "KEY_CHANGE_REFUSED": (47033, 193),
+    "KEY_CHALLENGE": (47034, 140),
+    "KEY_CHALLENGE_ANSWER": (47035, 29),
+    "PARAMETER_DIGEST_REQUEST": (47040, 33),
+    "PARAMETER_DIGEST": (47041, 74),
+    "PARAMETER_DESCRIPTION_REQUEST": (47042, 229),
+    "PARAMETER_DESCRIPTION": (47043, 190),
+    "PARAMETER_WRITE": (47044, 61),
+    "PARAMETER_OUTCOME": (47045, 153),
+    "ORDERS_ANNOUNCE": (47050, 167),
+    "ORDERS_PIECE": (47051, 77),
+    "ORDERS_MISSING": (47052, 152),
+    "ORDERS_REQUEST": (47053, 56),
+    "ORDERS_OUTCOME": (47054, 133),
+    "ORDERS_PROBLEM": (47055, 140),
+    "ORDERS_STATE_REQUEST": (47056, 104),
+    "ORDERS_STATE": (47057, 244),
+    "WAYPOINTS_REFUSED": (47058, 67),
 }
 """Number and extra byte of the checksum. The extra byte follows from names, types and order of the fields: a message of
 which it changes is another message, and gets another name and number."""
@@ -164,4 +195,5 @@ def test_every_field_says_what_it_is_and_in_what_unit() -> None:
                 assert field.units, f"{message.name}.{field.name}"
 
 
-UNITLESS = {"retransmit_ratio"}
+UNITLESS = {"retransmit_ratio", "parameters", "default_value", "low", "high", "value"}
+"""Numbers without one, and those whose unit another message or table tells."""

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.sequence import SequenceCounts
@@ -18,12 +18,31 @@ _MOST_PEERS = 4
 """Peers whose figures are told in one period."""
 
 
+class RefusalCounts(Protocol):
+    """Frames that a guard did not believe, since the start."""
+
+    @property
+    def unsigned(self) -> int:
+        """Without a signature."""
+
+    @property
+    def wrongly_signed(self) -> int:
+        """With one that does not hold."""
+
+    @property
+    def replayed(self) -> int:
+        """With one whose time stamp is old, or too far ahead."""
+
+
 class Refusals(NamedTuple):
-    """Frames that were not believed, since the start."""
+    """These counts at one time."""
 
     unsigned: int = 0
     wrongly_signed: int = 0
     replayed: int = 0
+
+
+NOTHING_REFUSED = Refusals()
 
 
 class LinkStatistics(NamedTuple):
@@ -86,7 +105,7 @@ class Statistics:
         time_sync: TimeSync | None = None,
         traffic: Traffic | None = None,
         surface_time_left: Callable[[], float] = lambda: math.nan,
-        refusals: Callable[[], Refusals] = Refusals,
+        refusals: RefusalCounts = NOTHING_REFUSED,
         period: float = 10.0,
     ) -> None:
         self._session, self._time_sync = session, time_sync
@@ -114,6 +133,7 @@ class Statistics:
         """Return the figures of a peer at a time [s]; zeros if it was never heard."""
         session = self._session
         counts = session.peers().get(peer, SequenceCounts())
+        refused = self._refusals
         timer = None if self._time_sync is None else self._time_sync.timer(peer)
         round_trip = None if timer is None else timer.round_trip
         return LinkStatistics(
@@ -121,7 +141,7 @@ class Statistics:
             bad=session.bad,
             duplicate=counts.duplicate,
             lost=counts.lost,
-            refusals=self._refusals(),
+            refusals=Refusals(refused.unsigned, refused.wrongly_signed, refused.replayed),
             round_trip_time=math.nan if round_trip is None else round_trip,
             time_out=math.nan if timer is None else timer.time_out,
             goodput=self.traffic.goodput(t),

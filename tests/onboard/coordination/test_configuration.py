@@ -28,7 +28,7 @@ from stommel.simulation.scenario.loading import load_mission
 from stommel.simulation.scenario.shipped import mission_path
 from stommel.simulation.setup import prepare
 from stommel.sitl.equipment import coordinator_settings
-from stommel.vehicle import load_vehicle
+from stommel.vehicle import builtin_text, load_vehicle
 from stommel.vehicle.fingerprint import untrimmed_fingerprint
 from tests.support.command import Command, run_here
 from tests.support.configuration import CONFIGURATION
@@ -231,6 +231,17 @@ def test_vehicles_that_cannot_fly_a_mission_are_refused(stommel: Command, tmp_pa
     done = stommel("vehicle", "config", vehicle, "--output", "out")
     assert (done.status, done.out) == (2, "")
     assert len(done.err.splitlines()) == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_vehicle_without_a_rating_is_refused(stommel: Command, tmp_path: Path) -> None:
+    """Nothing would keep missions from going deeper than its hull bears. Oracle: zju.toml without its two depths."""
+    before, _, after = builtin_text("zju").partition("[specification]\n")
+    unrated = (before + after.partition("\n\n")[2]).replace("\ndepth_rating_m", "\n# depth_rating_m")
+    (tmp_path / "unrated.toml").write_text(unrated)
+    done = stommel("vehicle", "config", "unrated.toml", "--output", "out")
+    assert (done.status, len(done.err.splitlines())) == (2, 1)
+    assert "hull.depth_rating_m is missing: the limits of missions need it" in done.err
     assert not (tmp_path / "out").exists()
 
 

@@ -5,7 +5,6 @@ from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits
 from stommel.vehicle import Vehicle
 from stommel.vehicle.fingerprint import untrimmed_fingerprint
 
-
 AIR_AT_THE_SURFACE_KPA = 101.325
 """Standard atmosphere: in a hull without its vacuum the pressure is no greater."""
 

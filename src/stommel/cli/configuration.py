@@ -10,7 +10,7 @@ from stommel.cli.options import ForceOption, JsonOption, VehicleArgument, load
 from stommel.cli.paths import folder_parser, refuse_existing
 
 if TYPE_CHECKING:
-    from stommel.onboard.coordination.config.tables import ConfigurationFile
+    from stommel.onboard.coordination.config.configuration_file import ConfigurationFile
     from stommel.simulation.setup import Setup
     from stommel.vehicle import Vehicle
 
@@ -84,7 +84,7 @@ def _dive(name: str, vehicle: "Vehicle") -> dict[str, Any]:
 def _begun(vehicle: "Vehicle", setup: "Setup") -> "ConfigurationFile":
     """The tables of the configuration."""
     from stommel.files.sentences import validated
-    from stommel.onboard.coordination.config.tables import ConfigurationFile
+    from stommel.onboard.coordination.config.configuration_file import ConfigurationFile
     from stommel.planning.vehicle_limits import vehicle_limits
     from stommel.sitl.equipment import actuator_limits, safety_limits
 

@@ -157,10 +157,10 @@ def _nodes(system: "System", separate: bool, *, in_real_time: bool) -> Iterator[
     if not separate:
         yield "in one process"
         return
-    from stommel.sitl.multicast import Multicast, works
+    from stommel.sitl.multicast import own_bus, works
     from stommel.sitl.separate_nodes import SeparateNodes
 
-    multicast = Multicast.own() if in_real_time else None
+    multicast = own_bus() if in_real_time else None
     if multicast is not None:
         objection = works(multicast)
         if objection:

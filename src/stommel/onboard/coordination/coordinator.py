@@ -90,7 +90,7 @@ class Coordinator:
         self._nodes = NodesControl.of(self._encoder, before.starts)
         self._navigator: Navigator | None = None
         usable = settings.usable_energy
-        self._battery = None if usable is None else BatteryAccount(usable)
+        self._battery = None if usable is None else BatteryAccount(usable, mean_over=settings.mean_power_over)
         self._sleeper = Sleeper(settings.schedule)
         self._store, self._before = store, before
         self.mission = before.mission

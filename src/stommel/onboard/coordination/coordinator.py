@@ -124,6 +124,17 @@ class Coordinator:
             )
             self.pilot.orders = orders._replace(dives=dives)
 
+    def aim_at(self, waypoint: int) -> str:
+        """Aim at another waypoint of the mission, by its number; why not, in words, or nothing."""
+        memory, orders = self.pilot.memory, self.pilot.orders
+        if memory is None or orders is None:
+            return "the vehicle does not know its position yet"
+        if not 0 <= waypoint < len(orders.waypoints):
+            return f"waypoint {waypoint}: must be between 0 and {len(orders.waypoints) - 1}"
+        memory["waypoint"], memory["until_guidance"] = waypoint, 0
+        memory["line_latitude"], memory["line_longitude"] = memory["latitude"], memory["longitude"]
+        return ""
+
     def adopt(self, orders: Orders, expires: float = float("inf"), mission: int = 0) -> None:
         """Take the orders of a mission that has been validated, and fly them until a time [s].
 

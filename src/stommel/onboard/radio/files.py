@@ -13,7 +13,6 @@ from stommel.link.files.port import Entry, FileRefusalError, FtpError, Path
 from stommel.link.files.received_file import Identity, ReceivedFile, ReceptionError
 from stommel.onboard.coordination.logbook.file_names import log_name
 from stommel.onboard.coordination.logbook.logbook import Logbook
-from stommel.onboard.coordination.stores.storage import Storage
 
 LOG, MISSIONS, INBOX = "log", "missions", "inbox"
 MOST_INBOX = 8 << 20
@@ -40,16 +39,12 @@ class VehicleFiles:
         Where received files are kept.
     missions
         The missions' texts by file name.
-    log
-        Folder of the log; None where none is kept.
     logbook
-        Who writes it.
+        Of the vehicle; None where none is kept.
     """
 
-    def __init__(
-        self, inbox: Disk, missions: Pages, log: Storage | None = None, logbook: Logbook | None = None
-    ) -> None:
-        self._inbox, self._missions, self._log, self._logbook = inbox, missions, log, logbook
+    def __init__(self, inbox: Disk, missions: Pages, logbook: Logbook | None = None) -> None:
+        self._inbox, self._missions, self._logbook = inbox, missions, logbook
         self._read: _Read | None = None
 
     # reading
@@ -84,8 +79,8 @@ class VehicleFiles:
         if folder == (MISSIONS,):
             return {name: len(content) for name, content in self._missions().items()}
         if folder == (LOG,):
-            log = self._log
-            return {} if log is None else {n: s for n, s in self._of_disk(log.sizes).items() if log_name(n)}
+            log = self._logbook
+            return {} if log is None else {n: s for n, s in self._of_disk(log.storage.sizes).items() if log_name(n)}
         raise FileRefusalError(FtpError.FILE_NOT_FOUND, f"{'/'.join(folder)}: there is no such folder")
 
     def _received(self) -> dict[str, int]:
@@ -95,9 +90,9 @@ class VehicleFiles:
     def _whole(self, folder: str, name: str) -> bytes:
         if folder == MISSIONS:
             return self._missions()[name]
-        log = self._log
+        log = self._logbook
         assert log is not None
-        return self._of_disk(lambda: log.read(name))
+        return self._of_disk(lambda: log.storage.read(name))
 
     # writing, in the inbox alone
 

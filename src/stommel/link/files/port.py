@@ -46,7 +46,12 @@ class FtpError(IntEnum):
     FILE_NOT_FOUND = 10
 
 
-_RESULTS = {FtpError.FILE_NOT_FOUND: FileResult.NOT_FOUND, FtpError.FAIL: FileResult.FAILED}
+_RESULTS = {
+    FtpError.FILE_NOT_FOUND: FileResult.NOT_FOUND,
+    FtpError.END_OF_FILE: FileResult.CHANGED,
+    FtpError.NO_SESSIONS_AVAILABLE: FileResult.NO_ROOM,
+    FtpError.FAIL_ERRNO: FileResult.FAILED,
+}
 
 
 class FileRefusalError(StommelError):

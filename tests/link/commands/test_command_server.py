@@ -34,7 +34,7 @@ def asked(command: Command, cancel: int = 0) -> Received:
 def command(
     quay: Quay, id: int, number: int = START, *, when: When = When.UNTIL_EXPIRY, valid_for: float = 60.0
 ) -> Command:
-    now = int(quay.shore_t * 1000.0)
+    now = int(quay.shore_clock * 1000.0)
     return Command(id, number, (0.0,) * 4, when, now, now + int(valid_for * 1000.0))
 
 

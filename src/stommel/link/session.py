@@ -10,7 +10,7 @@ from stommel.link.line_watch import LineWatch
 from stommel.link.outbox import Outbox, Outgoing
 from stommel.link.rate import LineRate
 from stommel.link.sequence import SequenceCounts, SequenceWatch
-from stommel.link.service import Received, Service
+from stommel.link.service import Peer, Received, Service
 from stommel.messages.mavlink import MOST_PAYLOAD, message_named
 
 LONGEST_FRAME = HEAD + MOST_PAYLOAD + CHECKSUM + SIGNATURE
@@ -20,9 +20,6 @@ _MOST_PEERS = 32
 _NOTES = 32
 _ROUNDS = 64
 """Times that services are asked again in one poll, at most."""
-
-Peer = tuple[int, int]
-"""System and component."""
 
 
 class Session:
@@ -51,7 +48,7 @@ class Session:
         rate: LineRate | None = None,
     ) -> None:
         self.system, self.component = system, component
-        self.services = services
+        self.services = list(services)
         self.guard, self.rate = guard, rate
         self.outbox = Outbox()
         self.line = LineWatch()

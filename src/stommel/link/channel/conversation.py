@@ -2,7 +2,8 @@
 
 from collections.abc import Callable
 
-from stommel.link.channel.channel import Channel, ChannelEnd
+from stommel.link.channel.channel import Channel
+from stommel.link.exchange import exchange
 from stommel.link.rate import bytes_ahead
 from stommel.link.session import Session
 
@@ -40,10 +41,3 @@ class Conversation:
             exchange(self.vehicle, self.channel.vehicle, self.t, self._ahead)
             exchange(self.shore, self.channel.shore, self.t, self._ahead)
         return True
-
-
-def exchange(session: Session, end: ChannelEnd, t: float, ahead: int) -> None:
-    """Let a session hear and speak at a time [s]; no more than so many bytes wait in the modem."""
-    session.take(end.read(t), t)
-    if out := session.poll(t, min(end.room(t), ahead - end.waiting(t))):
-        end.write(out, t)

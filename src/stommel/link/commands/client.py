@@ -1,7 +1,7 @@
 """Commands ashore: given, said until they are answered, and followed to the last word."""
 
 import random
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from stommel.link.commands.report import Report, report_of
 from stommel.link.commands.shore_queue import ShoreQueue, Waiting
@@ -23,7 +23,8 @@ AGAIN = 1.0
 DISK_PATIENCE = 10.0
 """After which a disk that took nothing is tried again [s]."""
 MOST_NOTES = 32
-UNSENT = "taken back before it was sent"
+UNSENT = Progress(State.CANCELLED, words="taken back before it was sent")
+TOO_LATE = Progress(State.EXPIRED, words="expired before it was sent")
 SILENCE = 30.0
 """A vehicle that speaks after so long is asked at once [s]."""
 SET_BACK = 1000
@@ -109,10 +110,9 @@ class CommandClient:
         CommandError
             As `give`.
         """
-        before = [id for id, entry in self._queue.waiting.items() if entry.command.number != ABORT]
+        before = [entry for entry in self._open() if entry.command.number != ABORT]
         id = self.give("abort", {}, t, valid_for=valid_for)
-        for other in before:
-            self.cancel(other, t)
+        self._take_back(before, t)
         return id
 
     def cancel(self, id: int, t: float) -> None:
@@ -125,21 +125,27 @@ class CommandClient:
         """
         self._read_clock(t)
         entry = self._entry(id)
-        if entry.last is None and not entry.cancel:
-            self._take_back(entry, UNSENT, t)
+        if entry.last is None:
+            self._take_back([entry], t)
 
-    def _take_back(self, entry: Waiting, words: str, t: float) -> None:
-        entry.cancel, entry.due, entry.tries = True, t, 0
-        if not entry.sent:
-            self._end(entry, State.CANCELLED, words, t)
-        else:
+    def _take_back(self, entries: Sequence[Waiting], t: float) -> None:
+        entries = [entry for entry in entries if not entry.cancel]
+        for entry in entries:
+            entry.cancel, entry.due, entry.tries = True, t, 0
+        if entries:
             self._keep(t)
+            self._end_unsent(t)
 
-    def _end(self, entry: Waiting, state: State, words: str, t: float) -> None:
-        """Say the last word of a command that was not sent; not before the disk has it."""
-        entry.last = Progress(state, words=words)
-        if not self._keep(t):
-            entry.last, entry.due = None, t + DISK_PATIENCE
+    def _end_unsent(self, t: float) -> None:
+        """Say the last word of commands that were not sent, and will not be; not before the disk has it."""
+        now, ended = self._shown(t), []
+        for entry in self._open():
+            if not entry.sent and t >= entry.due and (entry.cancel or now >= entry.command.expires):
+                entry.last = UNSENT if entry.cancel else TOO_LATE
+                ended.append(entry)
+        if ended and not self._keep(t):
+            for entry in ended:
+                entry.last, entry.due = None, t + DISK_PATIENCE
 
     # what became of them
 
@@ -212,13 +218,7 @@ class CommandClient:
     def poll(self, t: float, outbox: Outbox) -> None:
         """Say what is due at a time [s]."""
         now = self._read_clock(t)
-        for entry in self._open():
-            if entry.sent or t < entry.due:
-                continue
-            if entry.cancel:
-                self._end(entry, State.CANCELLED, UNSENT, t)
-            elif now >= entry.command.expires:
-                self._end(entry, State.EXPIRED, "expired before it was sent", t)
+        self._end_unsent(t)
         for entry in self._sayable(now):
             priority = Priority.ABORT if entry.command.number == ABORT else Priority.COMMAND
             if t >= entry.due and outbox.room(priority) >= message_named(_COMMAND).layout.size:
@@ -275,8 +275,8 @@ class CommandClient:
             self.notes.append(f"clock is {(self._now - now) / 1000.0:.0f} s behind: open commands are taken back")
             del self.notes[:-MOST_NOTES]
             self._heard_at = t
-            for entry in self._open():
-                self._take_back(entry, "the clock ashore was set back", t)
+            self._now = now
+            self._take_back(self._open(), t)
         self._now = now
         return now
 

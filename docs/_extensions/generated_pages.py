@@ -20,6 +20,7 @@ from typing import Any, Literal, get_args, get_origin
 import can_tables
 import dive_cycle
 import fault_tables
+import link_tables
 import log_tables
 import node_tables
 import vehicle_software
@@ -214,6 +215,7 @@ def write_pages(app: Sphinx) -> None:
     )
     _write(folder / "validation.md", validation_report())
     _write(folder / "can-messages.md", "".join(can_tables.can_tables()))
+    _write(folder / "link-messages.md", "".join(link_tables.link_tables()))
     _write(folder / "log-records.md", "".join(log_tables.log_tables()))
     _write(folder / "faults.md", "".join(fault_tables.fault_tables()))
     _write(folder / "dive-cycle.md", "".join(dive_cycle.transition_table()))

@@ -31,7 +31,7 @@ ToOption = Annotated[
         "--to",
         metavar="ADDRESS",
         envvar="STOMMEL_LINK",
-        help="Where the vehicle's radio is: serial:/dev/ttyUSB0:57600, tcp:HOST:PORT, udp:HOST:PORT, udp-listen:HOST:PORT.",
+        help="Where the vehicle's radio is: serial:/dev/ttyUSB0:57600, tcp:HOST:PORT, udp:HOST:PORT, pty, ...",
     ),
 ]
 KeyOption = Annotated[

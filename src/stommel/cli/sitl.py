@@ -105,7 +105,7 @@ def fly(
     from stommel.sitl.faults.injector import Injector
     from stommel.sitl.scenario import load_scenario
 
-    mission, faults = load_scenario(mission_path(scenario))
+    mission, faults, _ = load_scenario(mission_path(scenario))
     if seed is not None:
         mission = with_seed(mission, seed)
     if faults and separate_nodes:

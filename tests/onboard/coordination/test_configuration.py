@@ -17,7 +17,7 @@ from stommel.control.dive_cycle import DRIFT, PHASES, RECOVERY, SURFACE
 from stommel.errors import FileError
 from stommel.files.docstrings import attribute_docstrings
 from stommel.files.table_keys import models_in
-from stommel.instruments.serial_port import BAUD_RATES
+from stommel.messages.serial_port import BAUD_RATES
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.config import ConfigurationFile, read_configuration
 from stommel.onboard.coordination.config.text import configuration_text

@@ -51,7 +51,7 @@ def ported(disk: Disk | None = None, holding: str | None = ORDERS) -> tuple[Miss
         store.take(0, holding.encode())
         store.switch()
     flown = Flown()
-    return store, MissionPort(store, flown), flown
+    return store, MissionPort(lambda: store, flown), flown
 
 
 def test_waypoints_are_put_into_the_orders_that_are_held() -> None:
@@ -121,6 +121,23 @@ def test_a_mission_that_must_not_be_replaced_now_is_kept() -> None:
     assert refusal.words == "mission: the vehicle is under water"
     assert store.active is not None
     assert store.active.number == 1
+
+
+def test_a_file_goes_on_after_a_restart_of_the_vehicle() -> None:
+    """What has arrived lies on the disk: no byte of it is asked for again, and the switch needs no announcement."""
+    disk = Disk()
+    _, port, _ = ported(disk, holding=None)
+    text = ORDERS.encode()
+    sha256 = hashlib.sha256(text).digest()
+    port.announce(len(text), sha256)
+    port.take_piece(0, text[:700])
+    again = MissionPort(lambda: MissionStore(disk, LIMITS), Flown())
+    assert again.announced() == sha256
+    assert list(again.missing()) == [(700, len(text))]
+    again.take_piece(700, text[700:])
+    again.switch()
+    assert again.held().sha256 == sha256
+    assert again.announced() == b""
 
 
 def test_aiming() -> None:

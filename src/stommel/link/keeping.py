@@ -4,7 +4,7 @@ import hashlib
 import json
 from typing import Any
 
-from stommel.link.storage import Storage
+from stommel.link.storage import Storage, replace_whole
 
 MOST_BYTES = 1 << 20
 """That are read of such a file."""
@@ -23,16 +23,7 @@ def keep(storage: Storage, name: str, content: object) -> None:
         The disk does not keep it; what stood under the name still does.
     """
     told = json.dumps(content, separators=(",", ":"), allow_nan=False).encode()
-    part = f"{name}.part"
-    if part in storage.sizes():
-        storage.remove(part)
-    file = storage.create(part)
-    try:
-        file.write(_digest(told) + b" " + told)
-        file.sync()
-    finally:
-        file.close()
-    storage.rename(part, name)
+    replace_whole(storage, name, _digest(told) + b" " + told)
 
 
 def kept(storage: Storage, name: str) -> Any:

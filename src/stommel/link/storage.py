@@ -1,7 +1,7 @@
-"""What the link needs of a disk, at either end. Files have plain names; nothing here opens any.
+"""What the link needs of a disk. Files have plain names; nothing here opens any.
 
 Every method may raise OSError: the disk is full, or broken. What was synced is still there after a loss of power; what
-was only written may be there whole, in part, or not at all. The vehicle's folders are such storage.
+was only written may be there whole, in part, or not at all. The vehicle's own storage has the same shape.
 """
 
 from typing import Protocol
@@ -37,3 +37,23 @@ class Storage(Protocol):
 
     def remove(self, name: str) -> None:
         """Remove a file."""
+
+
+def replace_whole(storage: Storage, name: str, content: bytes) -> None:
+    """Bring a file into being under its name: whole, on the disk, or not at all.
+
+    Raises
+    ------
+    OSError
+        The disk does not keep it; what stood under the name still does.
+    """
+    part = f"{name}.part"
+    if part in storage.sizes():
+        storage.remove(part)
+    file = storage.create(part)
+    try:
+        file.write(content)
+        file.sync()
+    finally:
+        file.close()
+    storage.rename(part, name)

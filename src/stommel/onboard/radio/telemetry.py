@@ -1,11 +1,11 @@
 """Says the telemetry that is due, and in words what has changed."""
 
+import math
 from collections import deque
 
-from stommel.errors import StommelError
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received
-from stommel.messages.mavlink import Fields
+from stommel.messages.mavlink import Fields, message_named
 from stommel.onboard.coordination.failsafes import FAILSAFES, Reaction
 from stommel.onboard.radio.observed import Observed
 from stommel.onboard.radio.telemetry_table import TELEMETRY, TelemetryRow
@@ -17,11 +17,8 @@ _MOST_WORDS = 32
 _TEXT, _EMERGENCY, _WARNING, _NOTICE, _INFO = 50, 0, 4, 5, 6
 """Bytes of a STATUSTEXT, and MAV_SEVERITY."""
 _ROWS = {row.name: row for row in TELEMETRY}
+_NUMBERS = {message_named(row.name).id: row for row in TELEMETRY}
 _REACTIONS = {row.name: row.reaction for row in FAILSAFES}
-
-
-class UnknownTelemetryError(StommelError):
-    """Nothing of this name is told regularly."""
 
 
 class Telemetry:
@@ -62,37 +59,25 @@ class Telemetry:
                 self._say(_ROWS[name], outbox)
                 self._due[name] = t + self._intervals[name]
 
-    def say(self, name: str, outbox: Outbox) -> bool:
-        """Say a message now, as somebody asks; whether there is something to say.
+    def request(self, number: int, t: float) -> bool:
+        """Say a message once, soon; whether the vehicle has it."""
+        row = _NUMBERS.get(number)
+        if row is None or self._seen is None or row.fields(self._seen) is None:
+            return False
+        self._due[row.name] = t
+        return True
 
-        Raises
-        ------
-        UnknownTelemetryError
-            Nothing of this name is told.
-        """
-        return self._say(self._row(name), outbox)
-
-    def set_interval(self, name: str, interval: float | None) -> None:
-        """Tell a message this often from now on [s], within `SHORTEST` and `LONGEST`; None: as the table says.
-
-        Raises
-        ------
-        UnknownTelemetryError
-            Nothing of this name is told.
-        """
-        row = self._row(name)
-        self._intervals[name] = row.interval if interval is None else min(max(interval, SHORTEST), LONGEST)
-        self._due[name] = 0.0
-
-    def interval(self, name: str) -> float:
-        """How often a message is told [s]."""
-        return self._intervals[self._row(name).name]
-
-    def _row(self, name: str) -> TelemetryRow:
-        try:
-            return _ROWS[name]
-        except KeyError:
-            raise UnknownTelemetryError(f"{name}: is not told regularly; known are {', '.join(_ROWS)}") from None
+    def set_interval(self, number: int, interval: float | None, t: float) -> bool:
+        """Say a message every so often [s], within `SHORTEST` and `LONGEST`; 0: as the table says, None: not at all."""
+        row = _NUMBERS.get(number)
+        if row is None:
+            return False
+        if interval is None:
+            self._intervals[row.name] = self._due[row.name] = math.inf
+            return True
+        self._intervals[row.name] = min(max(interval, SHORTEST), LONGEST) if interval else row.interval
+        self._due[row.name] = t
+        return True
 
     def _say(self, row: TelemetryRow, outbox: Outbox) -> bool:
         fields = None if self._seen is None else row.fields(self._seen)

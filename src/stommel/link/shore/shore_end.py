@@ -89,7 +89,6 @@ class ShoreEnd:
             self.parameters, self.orders, self.waypoints, self.statistics,
         ]  # fmt: skip
         self._passing: list[Service] = []
-        self._transfer = draw.randrange(1, 0xFFFF)
         self._arrange()
 
     def take(self, data: bytes, t: float) -> None:
@@ -112,11 +111,11 @@ class ShoreEnd:
 
     def download(self, path: str, disk: Disk, name: str, patience: float | None = None) -> Download:
         """Begin to fetch a file, or go on where it was left."""
-        return self._add(Download(OURS, self.vehicle, self._next(), path, disk, name, patience=patience))
+        return self._add(Download(OURS, self.vehicle, path, disk, name, patience=patience))
 
     def upload(self, content: bytes, path: str, patience: float | None = None) -> Upload:
         """Begin to send a file, or go on where it was left."""
-        return self._add(Upload(OURS, self.vehicle, self._next(), content, path, patience=patience))
+        return self._add(Upload(OURS, self.vehicle, content, path, patience=patience))
 
     def listing(self, folder: str, patience: float | None = None) -> Listing:
         """Begin to list a folder."""
@@ -124,7 +123,7 @@ class ShoreEnd:
 
     def release(self, identity: Identity, patience: float | None = None) -> Release:
         """Tell the vehicle that a file is whole here, and may go there."""
-        return self._add(Release(OURS, self.vehicle, self._next(), identity, patience=patience))
+        return self._add(Release(OURS, self.vehicle, identity, patience=patience))
 
     def drop(self, service: Download | Upload | Listing | Release) -> None:
         """End a service of a file, whatever its state."""
@@ -138,7 +137,3 @@ class ShoreEnd:
 
     def _arrange(self) -> None:
         self.session.services = [*self._lasting, *self._passing]
-
-    def _next(self) -> int:
-        self._transfer = self._transfer % 0xFFFF + 1
-        return self._transfer

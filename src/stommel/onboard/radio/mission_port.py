@@ -1,7 +1,7 @@
 """Missions that come over the radio, and the store that keeps them."""
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import degrees, isclose, radians
 from typing import Protocol
 
@@ -40,11 +40,26 @@ class MissionPort:
 
     Waypoints alone are no orders. They are put into those that are held, and what comes of it is received, checked and
     switched over as any orders file; a vehicle that holds none refuses them.
+
+    Parameters
+    ----------
+    store
+        Opens the vehicle's missions, when they are first asked for.
+    flown
+        What is done with them.
     """
 
-    def __init__(self, store: MissionStore, flown: FlownMission) -> None:
-        self._store, self._flown = store, flown
+    def __init__(self, store: Callable[[], MissionStore], flown: FlownMission) -> None:
+        self._open_store, self._flown = store, flown
+        self.opened: MissionStore | None = None
+        """The store, once anybody has asked for missions."""
         self._announced = b""
+
+    @property
+    def _store(self) -> MissionStore:
+        if self.opened is None:
+            self.opened = self._open_store()
+        return self.opened
 
     # whole orders files
 
@@ -92,6 +107,43 @@ class MissionPort:
         words = self._flown.why_not_now()
         if words:
             raise MissionRefusedError(f"mission: {words}")
+
+    # as commands ask for it
+
+    def fly_uploaded(self, number: int) -> str:
+        """Hold the file that was received, if it has this number or the number is 0; words on what is held now.
+
+        Raises
+        ------
+        StommelError
+            It is another, or it cannot be held.
+        """
+        found = self._store.check().number
+        if number not in (0, found):
+            raise MissionRefusedError(f"mission {number}: the one that was uploaded is number {found}")
+        self.switch()
+        return self._words()
+
+    def fly_previous(self) -> str:
+        """Hold the orders before again; words on what is held now.
+
+        Raises
+        ------
+        StommelError
+            There are none, or they cannot be held.
+        """
+        self.roll_back()
+        return self._words()
+
+    def _words(self) -> str:
+        held = self.held()
+        return f"mission {held.number}: {held.name}"
+
+    def texts(self) -> Mapping[str, bytes]:
+        """Orders files that are held, by what a shore sees them under."""
+        store = self._store
+        held = {"active.orders": store.active, "previous.orders": store.previous}
+        return {name: store.text(mission) for name, mission in held.items() if mission is not None}
 
     # waypoints
 

@@ -8,6 +8,8 @@ from stommel.link.commands.server import CommandServer
 from stommel.link.commands.standard import StandardCommands
 from stommel.link.files.port import FilePort
 from stommel.link.files.server import FileServer
+from stommel.link.missions.orders_server import OrdersServer
+from stommel.link.missions.waypoint_server import WaypointServer
 from stommel.link.presence import Presence
 from stommel.link.rate import LineRate
 from stommel.link.service import VEHICLE_COMPONENT, Service
@@ -19,8 +21,10 @@ from stommel.link.statistics import Statistics
 from stommel.link.storage import Storage
 from stommel.link.time_sync import TimeSync
 from stommel.onboard.coordination.coordinator import Coordinator
-from stommel.onboard.radio.commands import Missions, VehicleCommands
+from stommel.onboard.coordination.stores.missions import StoredMission
+from stommel.onboard.radio.commands import VehicleCommands
 from stommel.onboard.radio.dive_reports import DiveReports
+from stommel.onboard.radio.mission_port import MissionPort
 from stommel.onboard.radio.observed import Observed, observe
 from stommel.onboard.radio.shore_clock import ShoreClock
 from stommel.onboard.radio.telemetry import Telemetry
@@ -58,6 +62,8 @@ class VehicleLink:
         Keeps what commands have become of.
     missions
         Of the vehicle.
+    fly
+        Lets a mission be flown that was taken.
     files
         That the shore may see.
     services
@@ -74,12 +80,14 @@ class VehicleLink:
         utc: Callable[[float], float],
         random: Callable[[int], bytes],
         storage: Storage,
-        missions: Missions,
+        missions: MissionPort,
+        fly: Callable[[StoredMission], None],
         files: FilePort,
         services: tuple[Service, ...] = (),
         restart: Callable[[], None] | None = None,
     ) -> None:
         self._coordinator, self.guard, self._utc = coordinator, guard, utc
+        self._missions, self._fly = missions, fly
         self._seen: Observed | None = None
         me = settings.system, VEHICLE_COMPONENT
         rate = LineRate(settings.bit_rate, half_duplex=settings.half_duplex)
@@ -87,7 +95,7 @@ class VehicleLink:
         self.presence, self.time_sync = Presence(), TimeSync(utc)
         self.telemetry, self._reports = Telemetry(), DiveReports()
         port = VehicleCommands(coordinator, missions, restart)
-        self.commands = CommandServer(*me, port, ShoreClock(self.time_sync, utc), storage)
+        self.commands = CommandServer(*me, port, ShoreClock(self.time_sync), storage)
         self.statistics = Statistics(
             self.session, self.time_sync, surface_time_left=self._surface_time_left, refusals=guard.refusals
         )
@@ -98,6 +106,8 @@ class VehicleLink:
             self.time_sync,
             self.commands,
             StandardCommands(*me, port, self.telemetry, Identity(__version__), self.commands.abort_came),
+            OrdersServer(*me, missions, missions),
+            WaypointServer(*me, missions),
             *services,
             self.telemetry,
             self._reports,
@@ -114,8 +124,11 @@ class VehicleLink:
             self._reports.observe(seen)
 
     def take(self, data: bytes, t: float) -> None:
-        """Take bytes that the radio has received until a time [s]."""
+        """Take bytes that the radio has received until a time [s]; a mission that came is flown from here on."""
         self.session.take(data, t)
+        store = self._missions.opened
+        if store is not None and store.active is not None and store.active.number != self._coordinator.mission:
+            self._fly(store.active)
 
     def poll(self, t: float, room: int) -> bytes:
         """Return at most so many bytes for the radio to send."""

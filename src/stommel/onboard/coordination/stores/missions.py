@@ -181,15 +181,26 @@ class MissionStore:
         """
         if self.previous is None:
             raise MissionStoreError("mission: there is no previous one to roll back to")
-        try:
-            text = self._storage.read(_name(self.previous.number)).partition(b"\n")[2]
-        except OSError as error:
-            raise MissionStoreError(f"mission: cannot be read: {error.strerror or error}") from error
-        if hashlib.sha256(text).hexdigest() != self.previous.sha256:
-            raise MissionStoreError(f"mission {self.previous.number}: is damaged: its SHA-256 is another")
+        text = self.text(self.previous)
         mission = self.previous._replace(number=self._highest + 1)
         self._keep(mission, text)
         return mission
+
+    def text(self, mission: StoredMission) -> bytes:
+        """Orders file of a mission that is held, as it came.
+
+        Raises
+        ------
+        MissionStoreError
+            The disk has it no more, or has damaged it.
+        """
+        try:
+            text = self._storage.read(_name(mission.number)).partition(b"\n")[2]
+        except OSError as error:
+            raise MissionStoreError(f"mission: cannot be read: {error.strerror or error}") from error
+        if hashlib.sha256(text).hexdigest() != mission.sha256:
+            raise MissionStoreError(f"mission {mission.number}: is damaged: its SHA-256 is another")
+        return text
 
     def _keep(self, mission: StoredMission, text: bytes) -> None:
         try:

@@ -76,10 +76,21 @@ class Quay:
 
     def start_shore(self) -> None:
         self.seed += 1
-        self.client = CommandClient(*SHORE, VEHICLE[0], self.shore_disk, random.Random(self.seed), self.shore_t)
+        # the time of the program begins anew with it, the clock does not
+        began = self.t
+        self.began_shore = began
+        self.client = CommandClient(
+            *SHORE, VEHICLE[0], self.shore_disk, random.Random(self.seed), 0.0, clock=lambda t: t + began + EPOCH
+        )
 
     @property
     def shore_t(self) -> float:
+        """Time of the program ashore."""
+        return self.t - self.began_shore
+
+    @property
+    def shore_clock(self) -> float:
+        """The clock ashore."""
         return self.t + EPOCH
 
     def give(self, name: str, valid_for: float = 600.0, **options: object) -> int:

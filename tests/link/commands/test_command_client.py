@@ -11,7 +11,7 @@ from stommel.link.commands.table import ABORT, HOLD, START, CommandError
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received
 from stommel.messages.mavlink import message_named
-from tests.link.commands.quay import EPOCH, SHORE, VEHICLE, Quay
+from tests.link.commands.quay import SHORE, VEHICLE, Quay
 
 
 def test_a_command_is_executed_and_its_sender_hears_it() -> None:
@@ -244,10 +244,10 @@ def test_a_clock_that_is_set_back_takes_open_commands_back() -> None:
     quay.up = lambda name: False
     sent, unsent = quay.give("start"), quay.give("hold")
     quay.run(2.0)
-    client = CommandClient(*SHORE, VEHICLE[0], quay.shore_disk, random.Random(9), quay.shore_t - 7200.0)
+    client = CommandClient(*SHORE, VEHICLE[0], quay.shore_disk, random.Random(9), quay.shore_clock - 7200.0)
     assert client.notes == ["clock is 7198 s behind: open commands are taken back"]  # kept 2 s ago
-    assert client.report(unsent, quay.shore_t - 7200.0).state is State.CANCELLED
-    assert not client.report(sent, quay.shore_t - 7200.0).is_last
+    assert client.report(unsent, quay.shore_clock - 7200.0).state is State.CANCELLED
+    assert not client.report(sent, quay.shore_clock - 7200.0).is_last
 
 
 def test_a_full_disk_keeps_commands_from_being_given_and_from_being_sent() -> None:
@@ -295,7 +295,7 @@ def test_what_cannot_be_given_is_named(
     with pytest.raises(CommandError) as told:
         quay.client.give(name, parameters, quay.shore_t, valid_for=valid_for)
     assert sentence in str(told.value)
-    assert quay.client.reports(EPOCH) == []
+    assert quay.client.reports(quay.shore_t) == []
 
 
 def test_the_queue_is_bounded_and_dropping_what_may_still_be_executed_is_refused() -> None:

@@ -34,7 +34,7 @@ def asked(command: Command, cancel: int = 0) -> Received:
 def command(
     quay: Quay, id: int, number: int = START, *, when: When = When.UNTIL_EXPIRY, valid_for: float = 60.0
 ) -> Command:
-    now = int(quay.shore_t * 1000.0)
+    now = int(quay.shore_clock * 1000.0)
     return Command(id, number, (0.0,) * 4, when, now, now + int(valid_for * 1000.0))
 
 
@@ -242,6 +242,32 @@ def test_an_abort_overtakes_what_waits_and_what_was_given_before_it() -> None:
     quay.t += 1.0
     assert answer(quay, said(command(quay, 4)))[0] is State.DONE
     assert quay.port.numbers == [ABORT, START]
+
+
+def test_an_older_abort_that_comes_late_does_not_let_through_what_a_newer_one_has_overtaken() -> None:
+    quay = Quay()
+    older = command(quay, 1, ABORT)
+    quay.t += 1.0
+    between = command(quay, 2)
+    quay.t += 1.0
+    newer = command(quay, 3, ABORT)
+    for one in (newer, older):
+        assert answer(quay, said(one))[0] is State.DONE
+    assert answer(quay, said(between))[0] is State.CANCELLED
+
+
+def test_the_mark_of_an_abort_given_by_a_clock_that_ran_ahead_is_void_once_that_is_put_right() -> None:
+    quay = Quay()
+    quay.clock.offset = EPOCH + 86_400.0
+    ahead = command(quay, 1, ABORT)
+    ahead = ahead._replace(given=ahead.given + 86_400_000, expires=ahead.expires + 86_400_000)
+    assert answer(quay, said(ahead))[0] is State.DONE
+    quay.clock.offset = EPOCH
+    quay.t += 1.0
+    assert answer(quay, said(command(quay, 2)))[0] is State.DONE
+    quay.t += 1.0
+    assert answer(quay, said(command(quay, 3, ABORT)))[0] is State.DONE
+    assert quay.port.numbers == [ABORT, START, ABORT]
 
 
 @pytest.mark.parametrize("disk_fails", [False, True])

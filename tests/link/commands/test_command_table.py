@@ -1,11 +1,10 @@
-"""The table of commands. Oracles: `glider.xml`, and the guide's page that is made of it."""
+"""The table of commands. Oracle: `glider.xml`."""
 
 import pytest
 
 from stommel.link.commands.states import State, When
 from stommel.link.commands.table import COMMANDS, PARAMETERS, command_named, command_numbered, packed, refusal
 from stommel.messages.mavlink import enumeration
-from tests.support.pages import guide
 
 
 def test_numbers_are_those_of_the_dialect() -> None:
@@ -38,9 +37,3 @@ def test_what_may_go_wrong_is_asked_for() -> None:
     """Everything that lets the vehicle dive, moves it, or stops its software."""
     asks = {row.name for row in COMMANDS if row.confirm}
     assert asks == {"abort", "start", "clear", "self-test", "switch-mission", "roll-back-mission", "restart"}
-
-
-def test_the_guide_names_every_state() -> None:
-    page = guide("link-commands")
-    for state in State:
-        assert f"`{state.name}`" in page

@@ -1,7 +1,7 @@
 """Commands ashore: given, said until they are answered, and followed to the last word."""
 
 import random
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from stommel.link.commands.report import Report, report_of
 from stommel.link.commands.shore_queue import ShoreQueue, Waiting
@@ -22,7 +22,9 @@ AGAIN = 1.0
 """After which a command is said again that the vehicle could not take [s]."""
 DISK_PATIENCE = 10.0
 """After which a disk that took nothing is tried again [s]."""
-UNSENT = "taken back before it was sent"
+MOST_NOTES = 32
+UNSENT = Progress(State.CANCELLED, words="taken back before it was sent")
+TOO_LATE = Progress(State.EXPIRED, words="expired before it was sent")
 SILENCE = 30.0
 """A vehicle that speaks after so long is asked at once [s]."""
 SET_BACK = 1000
@@ -47,8 +49,10 @@ class CommandClient:
     draw
         Draws ids; must be seeded from the operating system, so that no two senders draw the same.
     t
-        Time [s] of the clock that our TIMESYNC tells. It goes on when the program is started anew, as UTC does; if it
-        is found set back, all open commands are taken back, since nobody can say when they expire.
+        Now [s]; the same time as is given to all methods.
+    clock
+        The clock [s] that our TIMESYNC tells, at such a time. It goes on when the program is started anew, as UTC does;
+        if it is found set back, all open commands are taken back, since nobody can say when they expire.
     vehicle_component
         Who is commanded there.
     """
@@ -62,10 +66,11 @@ class CommandClient:
         draw: random.Random,
         t: float,
         *,
+        clock: Callable[[float], float] = lambda t: t,
         vehicle_component: int = VEHICLE_COMPONENT,
     ) -> None:
         self._me, self._vehicle = (system, component), (vehicle, vehicle_component)
-        self._draw = draw
+        self._draw, self._clock = draw, clock
         self._queue = ShoreQueue(storage)
         self.notes = self._queue.notes
         """What was found damaged or wrong, in words."""
@@ -105,10 +110,9 @@ class CommandClient:
         CommandError
             As `give`.
         """
-        before = [id for id, entry in self._queue.waiting.items() if entry.command.number != ABORT]
+        before = [entry for entry in self._open() if entry.command.number != ABORT]
         id = self.give("abort", {}, t, valid_for=valid_for)
-        for other in before:
-            self.cancel(other, t)
+        self._take_back(before, t)
         return id
 
     def cancel(self, id: int, t: float) -> None:
@@ -119,23 +123,29 @@ class CommandClient:
         CommandError
             There is no such command.
         """
-        now = self._read_clock(t)
+        self._read_clock(t)
         entry = self._entry(id)
-        if entry.last is None and not entry.cancel:
-            self._take_back(entry, UNSENT, now)
+        if entry.last is None:
+            self._take_back([entry], t)
 
-    def _take_back(self, entry: Waiting, words: str, now: int) -> None:
-        entry.cancel, entry.due, entry.tries = True, 0.0, 0
-        if not entry.sent:
-            self._end(entry, State.CANCELLED, words, now)
-        else:
-            self._keep(now)
+    def _take_back(self, entries: Sequence[Waiting], t: float) -> None:
+        entries = [entry for entry in entries if not entry.cancel]
+        for entry in entries:
+            entry.cancel, entry.due, entry.tries = True, t, 0
+        if entries:
+            self._keep(t)
+            self._end_unsent(t)
 
-    def _end(self, entry: Waiting, state: State, words: str, now: int) -> None:
-        """Say the last word of a command that was not sent; not before the disk has it."""
-        entry.last = Progress(state, words=words)
-        if not self._keep(now):
-            entry.last, entry.due = None, now / 1000.0 + DISK_PATIENCE
+    def _end_unsent(self, t: float) -> None:
+        """Say the last word of commands that were not sent, and will not be; not before the disk has it."""
+        now, ended = self._shown(t), []
+        for entry in self._open():
+            if not entry.sent and t >= entry.due and (entry.cancel or now >= entry.command.expires):
+                entry.last = UNSENT if entry.cancel else TOO_LATE
+                ended.append(entry)
+        if ended and not self._keep(t):
+            for entry in ended:
+                entry.last, entry.due = None, t + DISK_PATIENCE
 
     # what became of them
 
@@ -147,7 +157,7 @@ class CommandClient:
         CommandError
             There is no such command.
         """
-        return report_of(self._entry(id), _milliseconds(t))
+        return report_of(self._entry(id), self._shown(t))
 
     def reports(self, t: float) -> list[Report]:
         """Return all, in the order in which they were given."""
@@ -165,7 +175,7 @@ class CommandClient:
         if entry.last is None and now < entry.command.expires:
             raise CommandError(f"command {id:016x}: may still be executed; cancel it, or wait until it has expired")
         del self._queue.waiting[id]
-        self._keep(now)
+        self._keep(t)
 
     def _entry(self, id: int) -> Waiting:
         entry = self._queue.waiting.get(id)
@@ -203,18 +213,12 @@ class CommandClient:
         entry.heard = progress
         if progress.state.is_last:
             entry.last = progress
-            self._keep(self._read_clock(t))
+            self._keep(t)
 
     def poll(self, t: float, outbox: Outbox) -> None:
         """Say what is due at a time [s]."""
         now = self._read_clock(t)
-        for entry in self._open():
-            if entry.sent or t < entry.due:
-                continue
-            if entry.cancel:
-                self._end(entry, State.CANCELLED, UNSENT, now)
-            elif now >= entry.command.expires:
-                self._end(entry, State.EXPIRED, "expired before it was sent", now)
+        self._end_unsent(t)
         for entry in self._sayable(now):
             priority = Priority.ABORT if entry.command.number == ABORT else Priority.COMMAND
             if t >= entry.due and outbox.room(priority) >= message_named(_COMMAND).layout.size:
@@ -237,7 +241,7 @@ class CommandClient:
         command = entry.command
         if not entry.sent:
             entry.sent = True
-            if not self._keep(now):
+            if not self._keep(t):
                 entry.sent, entry.due = False, t + self.timer.time_out
                 return
         entry.asking = entry.asking % 255 + 1
@@ -253,10 +257,10 @@ class CommandClient:
         entry.tries += 1
         entry.asked_at, entry.due = t, t + wait
 
-    def _keep(self, now: int) -> bool:
+    def _keep(self, t: float) -> bool:
         """Bring the queue to the disk; whether it was possible. What is not kept is found out again."""
         try:
-            self._queue.keep(now)
+            self._queue.keep(self._shown(t))
         except OSError as error:
             note = f"queue of commands: cannot be kept: {error.strerror or error}"
             if note not in self.notes:
@@ -266,17 +270,19 @@ class CommandClient:
 
     def _read_clock(self, t: float) -> int:
         """The clock [ms]; takes all back if it was set back."""
-        now = _milliseconds(t)
+        now = self._shown(t)
         if now < self._now - SET_BACK:
             self.notes.append(f"clock is {(self._now - now) / 1000.0:.0f} s behind: open commands are taken back")
+            del self.notes[:-MOST_NOTES]
             self._heard_at = t
-            for entry in self._open():
-                self._take_back(entry, "the clock ashore was set back", now)
+            self._now = now
+            self._take_back(self._open(), t)
         self._now = now
         return now
 
-
-def _milliseconds(t: float) -> int:
-    if not 0.0 <= t < LATEST / 1000.0:
-        raise CommandError(f"clock shows {t:g} s; must be from 0 to {LATEST / 1000.0:g} s")
-    return int(t * 1000.0)
+    def _shown(self, t: float) -> int:
+        """What the clock shows at a time [ms]."""
+        shown = self._clock(t)
+        if not 0.0 <= shown < LATEST / 1000.0:
+            raise CommandError(f"clock shows {shown:g} s; must be from 0 to {LATEST / 1000.0:g} s")
+        return int(shown * 1000.0)

@@ -138,7 +138,9 @@ class Ledger:
         room = self._most if abort else self._most - FOR_ABORTS
         forgotten = _to_forget(entries, len(entries) - max(room, len(old.entries)), latest)
         until = max((entries.pop(id).command.expires for id in forgotten), default=0)
-        self._write(_Content(entries, max(old.expired_until, until), old.given_until, abort or old.aborted))
+        # a mark that lies ahead is from before the sender's clock was set back
+        aborted = max(abort, old.aborted if old.aborted <= latest else 0) if abort else old.aborted
+        self._write(_Content(entries, max(old.expired_until, until), old.given_until, aborted))
 
     def _write(self, content: _Content) -> None:
         told = {

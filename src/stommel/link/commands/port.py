@@ -39,7 +39,7 @@ class CommandPort(Protocol):
 
 
 class PeerClock(Protocol):
-    """What is known of the clock of the shore station."""
+    """What is known of the clock of the shore station, the one that its TIMESYNC tells."""
 
     def latest(self, t: float) -> float | None:
         """The latest that its clock can show at a time [s] of ours [s]; None before they were compared."""

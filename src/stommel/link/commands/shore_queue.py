@@ -1,5 +1,6 @@
 """Commands ashore, on the disk: what was given, what was sent, what became of it."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -36,7 +37,7 @@ class Waiting:
     """Number of the last question, 1 to 255."""
     asked_at: float = 0.0
     """When that was [s]."""
-    due: float = 0.0
+    due: float = -math.inf
     """When it is asked again [s]."""
 
     @property

@@ -17,39 +17,27 @@ LATEST = 1 << 53
 
 
 class When(IntEnum):
-    """When a command may be executed; never after its expiry."""
+    """When a command may be executed, as `WHEN_WORDS` says; never after its expiry."""
 
     AT_ONCE = 0
-    """As it arrives, or not at all."""
     AT_NEXT_SURFACING = 1
-    """After the dive that follows, or in which it arrives."""
     UNTIL_EXPIRY = 2
-    """As soon as the vehicle can."""
 
 
 class State(IntEnum):
-    """What became of a command. From `DONE` on it is the last word, which the vehicle remembers."""
+    """What became of a command, as `MEANINGS` says. From `DONE` on it is the last word, which the vehicle remembers."""
 
     NOT_KNOWN = 0
-    """The vehicle has not heard of it."""
     RECEIVED = 1
-    """It was heard and is not taken yet: the words say why. It is not executed unless it is sent again."""
     WAITING = 2
-    """The vehicle has it, and will execute it when it may."""
     IN_PROGRESS = 3
     DONE = 10
     FAILED = 11
-    """It was begun, and did not succeed."""
     REFUSED = 12
-    """It was not begun, and will not be."""
     EXPIRED = 13
-    """Its time was over before it began; it will not be executed."""
     CANCELLED = 14
-    """It was taken back, or an abort overtook it; it will not be executed."""
     OUTCOME_UNKNOWN = 15
-    """It was begun, then the power failed: it may have had its effect, and will not be executed again."""
     FORGOTTEN = 16
-    """So old that the vehicle does not remember whether it was executed; it will not be executed now."""
 
     @property
     def is_last(self) -> bool:
@@ -79,6 +67,25 @@ _WORDS = {
     State.CANCELLED: "cancelled, not executed",
     State.OUTCOME_UNKNOWN: "begun, outcome unknown",
     State.FORGOTTEN: "forgotten, outcome unknown",
+}
+
+MEANINGS = {
+    State.NOT_KNOWN: "the vehicle has not heard of it; ashore: the vehicle has said nothing",
+    State.RECEIVED: "heard, and not taken: the words say why; not executed unless it is sent again, as it is",
+    State.WAITING: "the vehicle has it, and will execute it when it may",
+    State.IN_PROGRESS: "begun, with a percentage where it is known",
+    State.DONE: "executed",
+    State.FAILED: "begun, and did not succeed",
+    State.REFUSED: "not begun, and will not be",
+    State.EXPIRED: "its time was over before it began; it will not be executed",
+    State.CANCELLED: "taken back, or overtaken by an abort, before it began; it will not be executed",
+    State.OUTCOME_UNKNOWN: "begun, then the power failed: it may have had its effect; not executed again",
+    State.FORGOTTEN: "so old that the vehicle does not remember whether it was executed; not executed now",
+}
+WHEN_WORDS = {
+    When.AT_ONCE: "as it arrives, or not at all",
+    When.AT_NEXT_SURFACING: "after the dive that follows, or in which it arrives",
+    When.UNTIL_EXPIRY: "as soon as the vehicle can",
 }
 
 

@@ -12,6 +12,7 @@ from stommel.link.files.received_file import (
     WrongSumError,
     identity_on_disk,
 )
+from stommel.link.files.request_words import transfer_number
 from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
@@ -30,8 +31,6 @@ class Download:
     ----------
     own, peer
         System and component of this end, and of the one that has the file.
-    transfer
-        Number that nobody else uses now, 1 to 65535.
     path
         Of the file at the other end.
     disk, name
@@ -46,7 +45,6 @@ class Download:
         self,
         own: tuple[int, int],
         peer: tuple[int, int],
-        transfer: int,
         path: str,
         disk: Disk,
         name: str,
@@ -54,7 +52,8 @@ class Download:
         patience: float | None = PATIENCE,
         timer: RetransmissionTimer | None = None,
     ) -> None:
-        self._own, self._peer, self.transfer, self.path, self._disk, self._name = own, peer, transfer, path, disk, name
+        self._own, self._peer, self.path, self._disk, self._name = own, peer, path, disk, name
+        self.transfer = transfer_number("download", own, path)
         self._asking = Asking(timer, patience)
         self._fetch: Fetch | None = None
         self.file: ReceivedFile | None = None
@@ -65,10 +64,18 @@ class Download:
         self._wanted: Identity | None = None
         try:
             self._wanted = identity_on_disk(disk, name)
+            if self._wanted is not None and self._wanted.path == path:
+                self._open(self._wanted)
+            else:
+                self._wanted = None
         except ReceptionError as error:
             self._end(State.FAILED, str(error))
-        if self._wanted is not None and self._wanted.path != path:
-            self._wanted = None
+
+    def _open(self, identity: Identity) -> None:
+        """Go on with what is on the disk if it is of this file, or begin; segments may still be on their way."""
+        self.file = ReceivedFile(self._disk, self._name, identity)
+        timer = self._asking.timer
+        self._fetch = Fetch(self._peer, self.transfer, self.file.missing, self.file, timer, self._fetch)
 
     # what others ask
 
@@ -82,7 +89,7 @@ class Download:
         """How far it is."""
         size = self.file.identity.size if self.file is not None else None
         done = self.file.received.bytes if self.file is not None else 0
-        rate = self._fetch.rate if self._fetch is not None and self.state is State.FETCHING else 0.0
+        rate = self._fetch.pace.rate if self._fetch is not None and self.state is State.FETCHING else 0.0
         left = (size - done) / rate if size is not None and rate > 0.0 else None
         loss = self._fetch.loss.share if self._fetch is not None else 0.0
         return Progress(self.state, self.is_paused, self.reason, done, size, rate, left, self.counts.duplicate, loss)
@@ -98,15 +105,13 @@ class Download:
         if self.state.is_over:
             return
         self._asking.start(t)
-        self.state = State.IDENTIFYING if self.file is None else State.FETCHING
-        if self._fetch is not None:
-            self._fetch.begin_again()
+        self._forget_asked()
 
     # messages
 
     def take(self, received: Received, t: float) -> None:
         """Take a message at a time [s]."""
-        if received.system != self._peer[0] or self.state.is_over or self.is_paused:
+        if received.system != self._peer[0] or self.state.is_over:
             return
         self._asking.heard(t)
         if self._fetch is not None:
@@ -114,9 +119,9 @@ class Download:
         if received.values.get("transfer") != self.transfer or not is_for(received, *self._own):
             return
         try:
-            if received.name == "FILE_IDENTITY":
+            if received.name == "FILE_IDENTITY" and not self.is_paused:
                 self._identified(received, t)
-            elif received.name == "FILE_DATA" and self.state is State.FETCHING and self._fetch is not None:
+            elif received.name == "FILE_DATA" and self._fetch is not None and self.file is not None:
                 self._asking.goes_on(t)
                 self._fetch.take(received, t)
         except ReceptionError as error:
@@ -129,16 +134,21 @@ class Download:
         elif result is FileResult.OK and self.state is State.IDENTIFYING:
             self._asking.answered(t)
             self._begin(Identity(self.path, size, octets(received, "sha256").hex()), t)
-        elif result is FileResult.CHANGED or (result is not FileResult.OK and self._wanted is not None):
+        elif result is FileResult.CHANGED:
             self._changed(text(received, "reason"), t)
-        elif result is not FileResult.OK:
+        elif result not in (FileResult.OK, FileResult.NO_ROOM):  # room may come
             self._end(State.REFUSED, text(received, "reason") or result.name)
 
     def _identify_again(self, t: float) -> None:
         """The other end does not know this transfer, any more or yet."""
         if self.state is State.FETCHING:
+            self._forget_asked()
             self.state = State.IDENTIFYING
             self._asking.start(t)
+
+    def _forget_asked(self) -> None:
+        if self._fetch is not None:
+            self._fetch.begin_again()
 
     def _begin(self, identity: Identity, t: float) -> None:
         """Go on with what is on the disk if it is the same file, or begin."""
@@ -146,10 +156,8 @@ class Download:
             self._changed("the file aboard is not the one that was begun", t)
             return
         if self.file is None:
-            self.file = ReceivedFile(self._disk, self._name, identity)
+            self._open(identity)
         self._wanted = identity
-        timer = self._asking.timer
-        self._fetch = Fetch(self._peer, self.transfer, self.file.missing, self.file, timer, self._fetch)
         self.state = State.FETCHING
 
     def _changed(self, reason: str, t: float) -> None:
@@ -158,7 +166,7 @@ class Download:
         if self._starts >= _MOST_STARTS or self._wanted is None:
             self._end(State.FAILED, f"{self.path}: changes while it is read: {reason}")
             return
-        self.file = self._fetch = self._wanted = None
+        self.file = self._wanted = None
         self.reason = f"begun again: {reason}"
         self.state = State.IDENTIFYING
         self._asking.start(t)
@@ -202,6 +210,7 @@ class Download:
             if self._starts >= _MOST_STARTS:
                 raise
             self.reason = f"begun again: {error}"
+            self._open(self.file.identity)
             self.state = State.IDENTIFYING
             self._asking.start(t)
             return

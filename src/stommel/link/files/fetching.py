@@ -1,31 +1,26 @@
 """Fetches what is missing of a transfer: names ranges, takes segments, never asks for a byte that is on its way."""
 
-import math
 from collections.abc import Iterable
 from typing import NamedTuple, Protocol
 
 from stommel.link.files.loss import MOST_SEGMENT, LossBySize
-from stommel.link.files.ranges import Range, Ranges
+from stommel.link.files.pace import Pace
+from stommel.link.files.ranges import Range
 from stommel.link.files.recovery import MOST_REQUESTS, Recovery
+from stommel.link.files.request_words import LONGEST, MOST_RANGES, PROBE, packed_ranges
 from stommel.link.files.values import octets, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received
 from stommel.link.timing import FIRST, RetransmissionTimer
 
-PROBE = 1
-"""Flag of FILE_REQUEST."""
-MOST_RANGES = 60
-_LONGEST = 0xFFFF
 STILL_HERE = 4.0
 """Something is said at least so often while segments come [s]: who hears nothing stops sending."""
 MOST_WAIT = 15.0
 """Longest time between two requests into silence [s]."""
 _MOST_COPIES = 4
+_UNDOUBLED = 3
+"""Waits before they become longer: a radio that loses many frames is not a crowded one."""
 _LOSSY = 0.02
-_LN_UNLIKELY = -11.5
-"""Logarithm of a hundred-thousandth."""
-_TURN = 0.15
-"""For which a half-duplex radio may keep the other end silent [s]."""
 _ROOM = 255
 
 
@@ -87,14 +82,12 @@ class Fetch:
         self._sent_at: dict[int, float] = {}
         self._serial: int = transfer * 151 % 256 if before is None else before._serial
         """Begins elsewhere in each transfer, for the other end does not obey a number twice."""
-        self._epoch: int = transfer * 83 % 256 if before is None else (before._epoch + 1) % 256
+        self._epoch: int | None = None if before is None else before._epoch
         """Is another one whenever what was asked for before shall be forgotten."""
         self._is_begun = False
-        self._last_said = self._last_heard = self._last_asked = float("-inf")
+        self._last_said = self._last_asked = float("-inf")
         self._waits = 0
-        self._between = 0.05
-        self.rate = 0.0
-        """Bytes of new data a second, smoothed."""
+        self.pace: Pace = Pace() if before is None else before.pace
 
     @property
     def is_whole(self) -> bool:
@@ -104,7 +97,7 @@ class Fetch:
     @property
     def heard_at(self) -> float:
         """When a segment came last [s]."""
-        return self._last_heard
+        return self.pace.heard
 
     def begin_again(self) -> None:
         """Forget what was asked for: this end was away."""
@@ -117,7 +110,8 @@ class Fetch:
 
     def _forget(self) -> None:
         """Let the other end forget what was asked for, as soon as it hears the next request."""
-        self._epoch = (self._epoch + 1) % 256
+        if self._epoch is not None:
+            self._epoch = (self._epoch + 1) % 256
 
     def wake(self) -> None:
         """The other end is heard again after silence: ask now."""
@@ -140,7 +134,7 @@ class Fetch:
         self.counts = counts._replace(
             received=counts.received + new, duplicate=counts.duplicate + length - new, frames=counts.frames + 1
         )
-        self._note_rate(new, t)
+        self.pace.note(new, t)
         self._waits = 0
 
     def _measure(self, echo: int, t: float) -> None:
@@ -151,15 +145,6 @@ class Fetch:
         self.timer.measure(t - sent)
         for serial in [each for each in self._sent_at if (echo - each) % 256 < 128]:
             del self._sent_at[serial]
-
-    def _note_rate(self, new: int, t: float) -> None:
-        gap = t - self._last_heard
-        self._last_heard = t
-        if gap < MOST_WAIT:
-            self._between += 0.1 * (gap - self._between)
-            if gap > 0.0:
-                weight = min(1.0, gap / 2.0)
-                self.rate += weight * (new / gap - self.rate)
 
     def stop(self, t: float, outbox: Outbox) -> None:
         """Tell the other end to send nothing more."""
@@ -186,21 +171,14 @@ class Fetch:
     @property
     def _time_out(self) -> float:
         least = FIRST if self.timer.round_trip is None else 0.0
-        return min(max(self.timer.time_out, least) * 2.0 ** min(max(self._waits - 1, 0), 8), MOST_WAIT)
+        return min(max(self.timer.time_out, least) * 2.0 ** min(max(self._waits - _UNDOUBLED, 0), 8), MOST_WAIT)
 
     def _is_overdue(self, t: float) -> bool:
         """Whether what was asked for should have come, or so many frames in a row should have that not all are lost."""
         if not self.recovery.is_expecting:
             return False
-        expected = self.recovery.asked_bytes / self.loss.segment + 2.0
-        unlikely = _LN_UNLIKELY / math.log(min(max(self.loss.share, 0.01), 0.95))
-        silence = min(expected, unlikely) * self._frame_time + _TURN
-        return t >= max(self._last_asked + self._time_out, self._last_heard + silence)
-
-    @property
-    def _frame_time(self) -> float:
-        """Time between frames of the other end, lost ones among them [s]."""
-        return self._between * max(1.0 - self.loss.share, 0.05)
+        silence = self.pace.silence(self.loss.share, self.recovery.asked_bytes / self.loss.segment)
+        return t >= max(self._last_asked + self._time_out, self.pace.heard + silence)
 
     def _is_due(self, t: float) -> bool:
         """Whether to ask now: the other end is about to run dry, or there is enough to fill a request."""
@@ -222,11 +200,11 @@ class Fetch:
     @property
     def _line_rate(self) -> float:
         """Bytes a second that the other end sends."""
-        return self.loss.segment / max(self._frame_time, 1e-4)
+        return self.loss.segment / self.pace.frame_time(self.loss.share)
 
     def _ask(self, t: float, outbox: Outbox) -> None:
         serial = self._next_serial()
-        ranges = self.recovery.ask(serial, MOST_RANGES, _LONGEST, _LONGEST)
+        ranges = self.recovery.ask(serial, MOST_RANGES, LONGEST, LONGEST)
         dry = self._is_running_dry
         lossy = self.loss.share > _LOSSY
         repeats = (3 if self.loss.share > 0.25 else 2) if (dry and lossy) or self._waits else 1
@@ -242,9 +220,11 @@ class Fetch:
 
     def _copies(self, ranges: list[Range]) -> int:
         """How often to ask for the same at once: as the line would else be idle, and within a budget."""
+        size = sum(each.size for each in ranges)
+        if self.recovery.missing.bytes <= 2 * MOST_SEGMENT:
+            return 2
         if self.recovery.missing.bytes > self._budget:
             return 1
-        size = sum(each.size for each in ranges)
         idle = (self.timer.round_trip or 0.0) * self._line_rate - self.recovery.asked_bytes
         return 1 + max(0, min(_MOST_COPIES - 1, self._budget // (2 * size), int(idle / size)))
 
@@ -254,6 +234,8 @@ class Fetch:
 
     def _say(self, t: float, outbox: Outbox, serial: int, ranges: list[Range]) -> None:
         base, packed = packed_ranges(ranges)
+        if self._epoch is None:  # after a restart it is hardly the same
+            self._epoch = int(t * 997.0) % 256
         segment = self.loss.choose()
         flags = PROBE if self.loss.is_probing else 0
         system, component = self.peer
@@ -262,7 +244,8 @@ class Fetch:
             "FILE_REQUEST",
             {
                 "target_system": system, "target_component": component, "transfer": self.transfer, "base": base,
-                "serial": serial, "segment": segment, "epoch": self._epoch, "flags": flags, "count": len(ranges), "ranges": packed,
+                "serial": serial, "segment": segment, "epoch": self._epoch, "flags": flags,
+                "count": len(ranges), "ranges": packed,
             },
         )  # fmt: skip
         self.counts = self.counts._replace(requests=self.counts.requests + 1)
@@ -271,29 +254,3 @@ class Fetch:
             self._sent_at.setdefault(serial, t)
             while len(self._sent_at) > MOST_REQUESTS:
                 del self._sent_at[next(iter(self._sent_at))]
-
-
-def packed_ranges(ranges: Iterable[Range]) -> tuple[int, bytes]:
-    """Return base and bytes of ranges that are in order and near each other."""
-    found = list(ranges)
-    if not found:
-        return 0, b""
-    base = at = found[0].first
-    packed = bytearray()
-    for first, last in found:
-        packed += (first - at).to_bytes(2, "little") + (last - first).to_bytes(2, "little")
-        at = last
-    return base, bytes(packed)
-
-
-def unpacked_ranges(base: int, count: int, packed: bytes) -> Ranges:
-    """Return the ranges of a request; what is beyond 32 bits is left out."""
-    found, at = Ranges(), base
-    for k in range(min(count, len(packed) // 4, MOST_RANGES)):
-        skip, size = (int.from_bytes(packed[4 * k + i : 4 * k + i + 2], "little") for i in (0, 2))
-        at += skip
-        if at + size > 0xFFFFFFFF:
-            break
-        found.add(at, at + size)
-        at += size
-    return found

@@ -46,7 +46,12 @@ class FtpError(IntEnum):
     FILE_NOT_FOUND = 10
 
 
-_RESULTS = {FtpError.FILE_NOT_FOUND: FileResult.NOT_FOUND, FtpError.FAIL: FileResult.FAILED}
+_RESULTS = {
+    FtpError.FILE_NOT_FOUND: FileResult.NOT_FOUND,
+    FtpError.END_OF_FILE: FileResult.CHANGED,
+    FtpError.NO_SESSIONS_AVAILABLE: FileResult.NO_ROOM,
+    FtpError.FAIL_ERRNO: FileResult.FAILED,
+}
 
 
 class FileRefusalError(StommelError):
@@ -100,7 +105,7 @@ class Part(Protocol):
     def rest(self, t: float) -> None:
         """Is called often: time to bring to the disk what was kept lately."""
 
-    def finish(self) -> None:
+    def finish(self) -> object:
         """Let the file stand under its name, after its SHA-256 was found right.
 
         Raises

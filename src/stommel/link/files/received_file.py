@@ -126,6 +126,8 @@ class ReceivedFile:
         """
         if self.missing:
             raise ReceptionError(f"{self.name}: {self.missing.bytes} of {self.identity.size} bytes are missing")
+        if self.kept_as is not None:
+            return self.kept_as
         try:
             self._disk.sync(self._part)
             if (found := self._sum(self._part)) != self.identity.sha256:
@@ -150,6 +152,11 @@ class ReceivedFile:
 
     def _open(self) -> None:
         sizes = self._disk.sizes()
+        if sizes.get(self.name) == self.identity.size and self._sum(self.name) == self.identity.sha256:
+            self.received.add(0, self.identity.size)
+            self.kept_as = self.name
+            self.discard()
+            return
         if self._journal not in sizes or self._part not in sizes or not self._go_on(sizes[self._journal]):
             self._begin()
 

@@ -4,6 +4,7 @@ from stommel.link.files.asking import PATIENCE, Asking
 from stommel.link.files.port import FileResult
 from stommel.link.files.progress import State
 from stommel.link.files.received_file import Identity
+from stommel.link.files.request_words import transfer_number
 from stommel.link.files.values import text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
@@ -19,8 +20,6 @@ class Release:
     ----------
     own, peer
         System and component of this end, and of the one that has the file.
-    transfer
-        Number that nobody else uses now, 1 to 65535.
     identity
         What was received whole.
     """
@@ -29,13 +28,13 @@ class Release:
         self,
         own: tuple[int, int],
         peer: tuple[int, int],
-        transfer: int,
         identity: Identity,
         *,
         patience: float | None = PATIENCE,
         timer: RetransmissionTimer | None = None,
     ) -> None:
-        self._own, self._peer, self.transfer, self._identity = own, peer, transfer, identity
+        self._own, self._peer, self._identity = own, peer, identity
+        self.transfer = transfer_number("release", own, identity.path)
         self._asking = Asking(timer, patience)
         self.state, self.reason = State.OFFERING, ""
 

@@ -4,10 +4,10 @@ from collections import deque
 from collections.abc import Callable
 from typing import NamedTuple
 
-from stommel.link.files.fetching import PROBE, unpacked_ranges
 from stommel.link.files.loss import MOST_SEGMENT, SHORT_EVERY
 from stommel.link.files.port import FileRefusalError, FtpError
 from stommel.link.files.ranges import Range
+from stommel.link.files.request_words import PROBE, unpacked_ranges
 from stommel.link.files.values import octets, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received
@@ -66,9 +66,8 @@ class Transfer:
         if self._epoch is not None and values["epoch"] == (self._epoch - 1) % 256:
             return  # a late one
         if values["epoch"] != self._epoch:
+            self.forget_requests()
             self._epoch = values["epoch"]
-            self._waiting.clear()
-            self._obeyed.clear()
         serial = values["serial"]
         self._segment = min(max(values["segment"], 1), MOST_SEGMENT)
         self._probe = bool(values["flags"] & PROBE)
@@ -79,6 +78,12 @@ class Transfer:
         for first, last in unpacked_ranges(values["base"], values["count"], packed):
             if last <= self.size and len(self._waiting) < _MOST_WAITING:
                 self._waiting.append((serial, Range(first, last)))
+
+    def forget_requests(self) -> None:
+        """Nothing was asked for."""
+        self._epoch = None
+        self._waiting.clear()
+        self._obeyed.clear()
 
     def is_ready(self, t: float) -> bool:
         """Whether there is something to send to somebody who listens."""
@@ -131,6 +136,11 @@ class Sender:
         while len(self._transfers) >= MOST_TRANSFERS:
             del self._transfers[min(self._transfers, key=lambda key: self._transfers[key].heard)]
         self._transfers[peer, number] = transfer
+
+    def forget_requests(self, peer: Peer, number: int) -> None:
+        """Send nothing more of a transfer until it is asked for anew: the other end may have been away."""
+        if (peer, number) in self._transfers:
+            self._transfers[peer, number].forget_requests()
 
     def close(self, peer: Peer, number: int) -> None:
         """End a transfer."""

@@ -60,8 +60,7 @@ class FileServer:
         self._receiving.outcomes.clear()
         self._sender.poll(t, outbox)
         for peer, transfer, size, error in self._sender.broken:
-            result = FileResult.CHANGED if error.result is FileResult.REFUSED else error.result
-            self._answer_identity(peer, transfer, result, size, reason=str(error))
+            self._answer_identity(peer, transfer, error.result, size, reason=str(error))
         self._sender.broken.clear()
         while self._answers and outbox.room(Priority.COMMAND) >= _ROOM:
             outbox.put(Priority.COMMAND, *self._answers.popleft(), self._component)
@@ -71,6 +70,7 @@ class FileServer:
     def _open(self, received: Received, t: float) -> None:
         peer, number = _who(received)
         length = whole(received, "length")
+        self._sender.forget_requests(peer, number)
         if (peer, number) in self._digests:
             return  # asked again while it is being summed
         try:

@@ -6,6 +6,7 @@ from stommel.link.files.asking import PATIENCE, Asking
 from stommel.link.files.port import FileResult
 from stommel.link.files.progress import Progress, State
 from stommel.link.files.ranges import Ranges
+from stommel.link.files.request_words import transfer_number
 from stommel.link.files.sending import Sender, Transfer
 from stommel.link.files.values import text, whole
 from stommel.link.outbox import Outbox, Priority
@@ -26,8 +27,6 @@ class Upload:
     ----------
     own, peer
         System and component of this end, and of the one that shall have the file.
-    transfer
-        Number that nobody else uses now, 1 to 65535.
     content
         The file.
     path
@@ -42,15 +41,15 @@ class Upload:
         self,
         own: tuple[int, int],
         peer: tuple[int, int],
-        transfer: int,
         content: bytes,
         path: str,
         *,
         patience: float | None = PATIENCE,
         timer: RetransmissionTimer | None = None,
     ) -> None:
-        self._own, self._peer, self.transfer, self.path = own, peer, transfer, path
+        self._own, self._peer, self.path = own, peer, path
         self._content, self._sha256 = content, hashlib.sha256(content).digest()
+        self.transfer = transfer_number("upload", own, path)
         self._asking = Asking(timer, patience)
         self._sender = Sender()
         self._sent = Ranges()

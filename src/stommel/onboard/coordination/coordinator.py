@@ -90,7 +90,7 @@ class Coordinator:
         self._nodes = NodesControl.of(self._encoder, before.starts)
         self._navigator: Navigator | None = None
         usable = settings.usable_energy
-        self._battery = None if usable is None else BatteryAccount(usable)
+        self._battery = None if usable is None else BatteryAccount(usable, mean_over=settings.mean_power_over)
         self._sleeper = Sleeper(settings.schedule)
         self._store, self._before = store, before
         self.mission = before.mission
@@ -123,6 +123,17 @@ class Coordinator:
                 surface_time=time, longest_surface_time=max(time, orders.dives.longest_surface_time)
             )
             self.pilot.orders = orders._replace(dives=dives)
+
+    def aim_at(self, waypoint: int) -> str:
+        """Aim at another waypoint of the mission, by its number; why not, in words, or nothing."""
+        memory, orders = self.pilot.memory, self.pilot.orders
+        if memory is None or orders is None:
+            return "the vehicle does not know its position yet"
+        if not 0 <= waypoint < len(orders.waypoints):
+            return f"waypoint {waypoint}: must be between 0 and {len(orders.waypoints) - 1}"
+        memory["waypoint"], memory["until_guidance"] = waypoint, 0
+        memory["line_latitude"], memory["line_longitude"] = memory["latitude"], memory["longitude"]
+        return ""
 
     def adopt(self, orders: Orders, expires: float = float("inf"), mission: int = 0) -> None:
         """Take the orders of a mission that has been validated, and fly them until a time [s].

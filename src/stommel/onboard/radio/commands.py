@@ -25,10 +25,10 @@ READY = Answer(Readiness.READY)
 class Missions(Protocol):
     """The missions of the vehicle."""
 
-    def switch(self, number: int) -> str:
+    def fly_uploaded(self, number: int) -> str:
         """Fly the mission that was uploaded, if it has this number or the number is 0; words on what is flown now."""
 
-    def roll_back(self) -> str:
+    def fly_previous(self) -> str:
         """Fly the mission before this one; words on what is flown now."""
 
 
@@ -112,9 +112,9 @@ class VehicleCommands:
         """What needs no decision; None where something is to be followed."""
         number, value = command.number, command.parameters[0] if command.parameters else 0.0
         if number == table.SWITCH_MISSION:
-            return DONE._replace(words=self._missions.switch(int(value)))
+            return DONE._replace(words=self._missions.fly_uploaded(int(value)))
         if number == table.ROLL_BACK_MISSION:
-            return DONE._replace(words=self._missions.roll_back())
+            return DONE._replace(words=self._missions.fly_previous())
         if number == table.RADIO_TIME:
             self.coordinator.stay_at_surface(value)
             return DONE._replace(words="until another mission is taken")

@@ -1,5 +1,6 @@
 """The air between the vehicle's radio and a shore, on the loop's time."""
 
+from collections.abc import Callable
 from typing import Protocol
 
 from stommel.link.channel.channel import Channel
@@ -39,6 +40,8 @@ class Air:
         self.shore = shore
         self.on = False
         """Whether the vehicle's radio has power."""
+        self.wait: Callable[[float], None] | None = None
+        """Returns when it is time for a time of the mission [s]; as fast as it goes if None."""
         self.channel = Channel(settings, plant.mission.scenario.seed, self._is_linked)
 
     def _is_linked(self, t: float) -> bool:
@@ -61,13 +64,15 @@ class Air:
             Whether the vehicle's radio has power.
         """
         self.on = on
-        if not on or vehicle is None:
+        if (not on or vehicle is None) and self.wait is None:
             self._speak(self.shore, t, 0.0, ashore=True)
             return
         self.antenna.look()
         for look in range(LOOKS):
             now = t + step * look / LOOKS
-            self._speak(vehicle, now, offset, ashore=False)
+            if self.wait is not None:
+                self.wait(now)
+            self._speak(vehicle if on else None, now, offset, ashore=False)
             self._speak(self.shore, now, 0.0, ashore=True)
 
     def _speak(self, end: End | None, t: float, offset: float, *, ashore: bool) -> None:

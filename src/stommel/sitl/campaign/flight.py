@@ -87,9 +87,9 @@ class FaultFlight:
         self.watch.look()
 
     def _is_unseen(self, t: float, oil: float) -> bool:
-        """Whether what struck in the step at a time [s], with so much oil outside [m3], shows only after the oil's way in.
+        """Whether what struck in the step at a time [s], with so much oil outside [m3], tells itself only later.
 
-        So it is after a proof where the climb's ballast is outside, while the valve is open.
+        So it is while the valve is open, after a proof where the climb's ballast is outside.
         """
         setup = self.system.plant.setup
         engine = setup.equipment.plant.engine

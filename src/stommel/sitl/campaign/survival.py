@@ -134,7 +134,7 @@ def followed(faults: Sequence[Fault], start: Struck, means: Means) -> Iterator[F
         spare += after - oil - _STEP * ML_MIN * sum(f.value for f in acting if f.kind == "hull_leak")
         oil = after
         here = spare + float(np.interp(depth, *start.lighter))
-        # drag goes with the square of the speed: v' = (v_end^2 - v |v|) / way, the half with |v| taken at the step's end
+        # drag goes with the square of the speed: v' = (v_end^2 - v |v|) / way, with |v| of the step's beginning
         push = -here / means.speed_volume * means.sink_speed**2
         share = _STEP / means.settling_way
         sinks = (sinks + share * push) / (1.0 + share * abs(sinks))
@@ -147,8 +147,8 @@ def followed(faults: Sequence[Fault], start: Struck, means: Means) -> Iterator[F
 
 def _comes_up(faults: Sequence[Fault], start: Struck, means: Means) -> bool:
     last = Followed(start.t, start.depth, start.spare + means.drop_volume)
-    for last in followed(faults, start, means):
-        pass
+    for step in followed(faults, start, means):
+        last = step
     return last.depth <= means.lost_below and last.spare > 0.0
 
 

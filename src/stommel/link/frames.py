@@ -71,11 +71,21 @@ class FrameSplitter:
         del rest[: len(rest) if at < 0 else at]
         return found
 
-    def forget(self) -> None:
-        """Drop the beginning of a frame that will not be completed: the line was silent."""
-        if self._rest:
+    @property
+    def pending(self) -> int:
+        """Bytes that may be the beginning of a frame."""
+        return len(self._rest)
+
+    def forget(self) -> list[RawFrame]:
+        """Expect the rest of a frame no longer, after a silence; return frames that lay behind a false beginning."""
+        found: list[RawFrame] = []
+        while self._rest:
+            self._pass_over(0)
+            rest = bytes(self._rest[1:])
             self._rest.clear()
-            self.bad += 1
+            found += self.take(rest)
+        self._in_garbage = False
+        return found
 
     def _mark(self, at: int) -> int:
         """Place of the next mark; -1 if there is none."""

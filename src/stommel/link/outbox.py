@@ -22,6 +22,12 @@ class Priority(IntEnum):
     """Files, and all else that can wait."""
 
 
+_SHARE = 1 / 8
+"""Of the bytes, that each queue gets which waits behind others."""
+_FRAME, _OVERHEAD = 280.0, 25.0
+"""Bytes of the longest frame, and of what is about a payload."""
+
+
 class Outgoing(NamedTuple):
     """A message that waits, packed."""
 
@@ -34,6 +40,9 @@ class Outgoing(NamedTuple):
 class Outbox:
     """Queues of messages.
 
+    The most urgent goes first, but not for ever: of what goes, an eighth is set aside for each queue that waits behind,
+    so that a flood of one kind ends none below it. Nothing goes before an abort.
+
     Parameters
     ----------
     most
@@ -45,6 +54,7 @@ class Outbox:
         self._most = most
         self._queues: dict[Priority, deque[Outgoing]] = {priority: deque() for priority in Priority}
         self._bytes = dict.fromkeys(Priority, 0)
+        self._set_aside = dict.fromkeys(Priority, 0.0)
         self.dropped = 0
         """Messages that were dropped for want of room."""
 
@@ -71,12 +81,24 @@ class Outbox:
 
     def next(self) -> Outgoing | None:
         """Take the message that goes first; None if none waits."""
-        for priority, queue in self._queues.items():
-            if queue:
-                outgoing = queue.popleft()
-                self._bytes[priority] -= len(outgoing.payload)
-                return outgoing
-        return None
+        waiting = [priority for priority, queue in self._queues.items() if queue]
+        if not waiting:
+            return None
+        chosen = waiting[0]
+        if chosen is not Priority.ABORT:
+            chosen = next((behind for behind in waiting[1:] if self._is_due(behind)), chosen)
+        outgoing = self._queues[chosen].popleft()
+        size = len(outgoing.payload)
+        self._bytes[chosen] -= size
+        self._set_aside[chosen] = max(0.0, self._set_aside[chosen] - size - _OVERHEAD)
+        for behind in waiting:
+            if behind > chosen:
+                self._set_aside[behind] = min(_FRAME, self._set_aside[behind] + _SHARE * (size + _OVERHEAD))
+        return outgoing
+
+    def _is_due(self, priority: Priority) -> bool:
+        """Whether enough was set aside for the message that waits longest."""
+        return self._set_aside[priority] >= len(self._queues[priority][0].payload) + _OVERHEAD
 
     @property
     def waiting(self) -> int:

@@ -12,6 +12,9 @@ SHORE_COMPONENT = 190
 SHORE_SYSTEM = 255
 """What ground stations call themselves."""
 
+Peer = tuple[int, int]
+"""System and component."""
+
 
 class Received(NamedTuple):
     """A message that the session has accepted."""

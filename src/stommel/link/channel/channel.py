@@ -69,6 +69,11 @@ class ChannelEnd:
         self._channel.advance(t)
         return self.modem.room
 
+    def waiting(self, t: float) -> int:
+        """Bytes that wait in the modem at a time [s]."""
+        self._channel.advance(t)
+        return self.modem.waiting
+
 
 class Channel:
     """Two ends and the air between them, on a time that is given and never goes back.

@@ -105,7 +105,7 @@ class Part(Protocol):
     def rest(self, t: float) -> None:
         """Is called often: time to bring to the disk what was kept lately."""
 
-    def finish(self) -> None:
+    def finish(self) -> object:
         """Let the file stand under its name, after its SHA-256 was found right.
 
         Raises

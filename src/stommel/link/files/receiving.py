@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from stommel.errors import StommelError
 from stommel.link.files.fetching import Fetch
-from stommel.link.files.paths import plain_path
+from stommel.link.files.paths import file_path
 from stommel.link.files.port import FilePort, FileRefusalError, FileResult, Part
 from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox
@@ -71,7 +71,7 @@ class Receiving:
             self.outcomes.append((key, Outcome(FileResult.NO_ROOM, f"{MOST_INCOMING} files are received already")))
             return
         try:
-            part = self._port.receive(plain_path(offer.path), offer.size, offer.sha256)
+            part = self._port.receive(file_path(offer.path), offer.size, offer.sha256)
         except StommelError as error:
             self._end(key, offer, _refusal(error))
             return

@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from stommel.control.dive_cycle import PHASES
 from stommel.link.shore.heard import Heard
 from stommel.messages.mavlink import FieldValue, entry_words
 
@@ -42,7 +41,7 @@ def _unit(form: str, unit: str) -> Callable[[Any], str]:
 
 def _state(fields: dict[str, Any]) -> str:
     state = entry_words("GLIDER_EXECUTIVE").get(fields["executive"], f"state {fields['executive']}")
-    phase = PHASES[fields["phase"]] if fields["phase"] < len(PHASES) else f"phase {fields['phase']}"
+    phase = entry_words("GLIDER_PHASE").get(fields["phase"], f"phase {fields['phase']}")
     return f"{state}: {phase}" if state == "mission" else state
 
 

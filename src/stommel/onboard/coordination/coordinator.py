@@ -10,14 +10,15 @@ from stommel.instruments.gnss.fix import Fix
 from stommel.instruments.radio import Radio
 from stommel.instruments.tcm.driver import CompassDriver
 from stommel.messages.codec import Encoder
-from stommel.messages.database import COORDINATOR, value_named
+from stommel.messages.database import COORDINATOR, MOTION, value_named
 from stommel.messages.frames import Frame
 from stommel.messages.nodes import HeartbeatSender, NodeState
 from stommel.onboard.coordination.assessment import Inside, situation_of
 from stommel.onboard.coordination.compass.calibration import running_bits
 from stommel.onboard.coordination.compass.compensation import CompassCompensation
 from stommel.onboard.coordination.deciding import Decide, Pilot
-from stommel.onboard.coordination.executive import Executive, ExecutiveState, State
+from stommel.onboard.coordination.engine_proof import EngineProof, Oil
+from stommel.onboard.coordination.executive import FLOWN, Executive, ExecutiveState, State
 from stommel.onboard.coordination.executive_commands import commands as commands_of
 from stommel.onboard.coordination.logbook.logbook import Logbook
 from stommel.onboard.coordination.navigation import NavigationEstimate, Navigator
@@ -88,6 +89,7 @@ class Coordinator:
         self._encoder = Encoder()
         self._heartbeat = HeartbeatSender(COORDINATOR, self._encoder, before.starts, settings.kind)
         self._nodes = NodesControl.of(self._encoder, before.starts)
+        self._proof = EngineProof(settings.actuators.V_b_least, settings.actuators.V_b_greatest)
         self._navigator: Navigator | None = None
         usable = settings.usable_energy
         self._battery = None if usable is None else BatteryAccount(usable, mean_over=settings.mean_power_over)
@@ -180,10 +182,20 @@ class Coordinator:
         safety = self.safety.update(situation, clear=requests.clear)
         state = self.executive.update(situation, safety, requests)
         control = pilot.step(readings, state, t, self._sleeper.elapsed)
-        commands = commands_of(state, control, self.settings.actuators)
+        commands = self._floats_until_proven(t, state, commands_of(state, control, self.settings.actuators))
         self.view = view = View(t, situation, safety, state, commands, self._navigate(t), self._account(t))
         self.recorder.decided(view, pilot, readings, self._nodes.outcomes(), seen)
         return view
+
+    def _floats_until_proven(self, t: float, state: ExecutiveState, commands: Commands) -> Commands:
+        """Hold a descent where the vehicle still floats until the engine has proved itself there."""
+        seen, pilot = self.perception, self.pilot
+        if state.state not in FLOWN or pilot.orders is None:
+            return commands
+        stuck = seen.watch.reports(MOTION, "ValveStuck") or seen.watch.reports(MOTION, "PumpStuck")
+        oil = Oil(seen.value("MotionStatus", "ballast"), seen.heard.get("MotionStatus", float("-inf")), stuck)
+        V_b = self._proof.allowed(t, pilot.phase, commands.V_b, pilot.orders.dives.V_b_climb, oil)
+        return commands if V_b == commands.V_b else commands._replace(V_b=V_b)
 
     def _navigate(self, t: float) -> NavigationEstimate | None:
         """Follow how far the position may be wrong."""

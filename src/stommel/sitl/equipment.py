@@ -9,8 +9,8 @@ from stommel.control.orders import Orders
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.limits import ActuatorLimits, SafetyLimits
 from stommel.onboard.coordination.settings import CoordinatorSettings
-from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
-from stommel.onboard.execution.motion_settings import MotionSettings
+from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
+from stommel.onboard.nodes.motion_settings import MotionSettings
 from stommel.simulation.plant.hull_air import Hull
 from stommel.simulation.plant.parameters import Battery, Engine
 from stommel.simulation.plant.parameters import Plant as Machinery

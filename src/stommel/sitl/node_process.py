@@ -16,10 +16,10 @@ from stommel.messages.bus import CanBus
 from stommel.messages.frames import Frame
 from stommel.onboard.execution.acquisition_io import AcquisitionReadings
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
-from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
 from stommel.onboard.execution.motion_io import MotionReadings
 from stommel.onboard.execution.motion_node import MotionNode
-from stommel.onboard.execution.motion_settings import MotionSettings
+from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
+from stommel.onboard.nodes.motion_settings import MotionSettings
 from stommel.sitl.ctd_port import CtdPort
 from stommel.sitl.multicast import Multicast
 

@@ -11,10 +11,10 @@ from stommel.messages.frames import Frame
 from stommel.messages.nodes import UNSTATED, NodeKind
 from stommel.messages.parameters import ParameterStore
 from stommel.onboard.execution.acquisition_io import AcquisitionOutputs, AcquisitionReadings
-from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
 from stommel.onboard.execution.node_link import NodeLink
 from stommel.onboard.execution.node_states import Event, Mode
 from stommel.onboard.execution.self_tests import Proof, proof_of
+from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
 
 PERIOD = 1.0
 """Between two frames of each kind [s]."""
@@ -146,6 +146,7 @@ class AcquisitionNode:
         link.acknowledge(order, result, detail)
         if order.command == "Restart":
             link.restart()
+            self.settings = link.settings_with(self.settings)
             self._begin()
 
     def _hear_ctd(self, samples: Sequence[tuple[float, float, float]]) -> None:

@@ -14,7 +14,7 @@ from typing import Self
 from stommel.errors import StommelError
 from stommel.messages.bus import CanBus
 from stommel.messages.frames import Frame
-from stommel.onboard.coordination.coordinator import PORTS
+from stommel.onboard.coordination.own_instruments import PORTS
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
 from stommel.onboard.execution.motion_node import MotionNode
 from stommel.simulation.scenario.mission import Mission

@@ -15,9 +15,10 @@ from stommel.control.commands import GOING_ON
 from stommel.control.decision import decide
 from stommel.messages.database import ACQUISITION, COORDINATOR, MOTION, database_hash
 from stommel.messages.frames import Frame
-from stommel.onboard.coordination.coordinator import COMPASS, GNSS, RADIO, Coordinator
+from stommel.onboard.coordination.coordinator import Coordinator
 from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook
+from stommel.onboard.coordination.own_instruments import COMPASS, GNSS, RADIO
 from stommel.onboard.coordination.situation import OperatorRequests
 from stommel.onboard.coordination.stores.continuity import ContinuityStore
 from stommel.onboard.execution.acquisition_io import AcquisitionOutputs, AcquisitionReadings

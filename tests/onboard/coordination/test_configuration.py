@@ -92,7 +92,7 @@ def models(model: type[BaseModel]) -> Iterator[type[BaseModel]]:
 def test_every_key_is_written_with_what_it_means(text: str) -> None:
     """Above each is its docstring; those without a value are there as comments."""
     found = list(models(ConfigurationFile))
-    assert len(found) == 12
+    assert len(found) == 13
     plain = " ".join(text.replace("\n# ", " ").split())
     for model in found:
         for key, meaning in attribute_docstrings(model).items():
@@ -122,13 +122,16 @@ def test_units_of_the_file_become_si(tmp_path: Path) -> None:
     changed = (
         CONFIGURATION.replace('port = "/dev/a"', 'port = "/dev/a"\ndeclination_deg = -6.0\nhold_s = 7.0')
         + "[power]\nreserve = 0.25\ncompass_asleep_in = ['drift']\n[power.decide_every_s]\ndrift = 30.0\n"
+        + "[power.sample_every_s]\ndrift = 60.0\n"
     ).replace("depth_rating_m = 200.0", "depth_rating_m = 200.0\nbattery_wh = 1000.0")
     found = read_configuration(written(tmp_path, changed))
     assert found.coordinator.declination == radians(-6.0)
     assert found.coordinator.masking.longest == 7.0
     assert found.usable_energy == pytest.approx(0.75 * 3.6e6)
-    assert (found.schedule.decide[DRIFT], found.schedule.compass[DRIFT]) == (30.0, 30.0)
-    assert (found.schedule.decide[SURFACE], found.schedule.compass[SURFACE]) == (1.0, 1.0)
+    assert (found.schedule.decide[DRIFT], found.schedule.compass_rests[DRIFT]) == (30.0, True)
+    assert (found.schedule.decide[SURFACE], found.schedule.compass_rests[SURFACE]) == (1.0, False)
+    assert found.coordinator.compass.polled  # a compass that sends by itself cannot rest
+    assert (found.schedule.ctd[DRIFT], found.schedule.ctd[SURFACE]) == (60.0, 10.0)
     assert found.safety.longest_submerged == 90_000.0
     assert found.safety.vacuum_lost == 80_000.0
     assert found.actuators.r_px_surface == 0.49

@@ -24,8 +24,6 @@ class CoordinatorSettings:
     """From magnetic to true north, east positive."""
     calibration: CompassCalibration = field(default_factory=CompassCalibration)
     masking: Masking = field(default_factory=Masking)
-    sample_interval: float = 10.0
-    """Between two samples of the CTD."""
     compass: CompassSettings = field(default_factory=lambda: CompassSettings(polled=False))
     gnss: GnssSettings = field(default_factory=GnssSettings)
     navigation: NavigationErrors = field(default_factory=NavigationErrors)

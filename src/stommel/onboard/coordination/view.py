@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from stommel.control.commands import Commands
 from stommel.onboard.coordination.executive import ExecutiveState
+from stommel.onboard.coordination.health import Health
 from stommel.onboard.coordination.navigation import NavigationEstimate
 from stommel.onboard.coordination.power import BatteryEstimate
 from stommel.onboard.coordination.safety import SafetyState
@@ -19,6 +20,7 @@ class View(NamedTuple):
     safety: SafetyState
     executive: ExecutiveState
     commands: Commands
+    health: Health
     navigation: NavigationEstimate | None
     """None before the first position."""
     battery: BatteryEstimate | None

@@ -121,7 +121,7 @@ class AcquisitionNode:
         if self.link.stranger or mode is Mode.STOPPED or mode in _ALONE:
             return
         sampling = bool(values["sampling"])
-        if sampling and not self._sampling:
+        if sampling and (not self._sampling or values["sample_interval"] != self._interval):
             self._ctd_heard = self.link.now
         self._loads, self._sampling, self._radio = int(values["loads"]), sampling, bool(values["surface_radio"])
         self._interval = values["sample_interval"]

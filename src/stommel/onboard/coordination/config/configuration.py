@@ -91,8 +91,7 @@ class Configuration:
             declination=radians(file.compass.declination_deg),
             calibration=self.calibration,
             masking=Masking(longest=file.compass.hold_s, settling=file.compass.settle_s),
-            sample_interval=file.sample_every_s,
-            compass=CompassSettings(interval=file.compass.interval_s, polled=False),
+            compass=CompassSettings(interval=file.compass.interval_s, polled=any(self.schedule.compass_rests)),
             gnss=GnssSettings(format=file.gnss.format, port=file.gnss.receiver_port, interval=file.gnss.interval_s),
         )
 
@@ -106,14 +105,10 @@ class Configuration:
     def schedule(self) -> PowerSchedule:
         """When the controller decides, and what is on meanwhile."""
         power, file = self.file.power, self.file
-        decide = tuple(getattr(power.decide_every_s, phase) for phase in PHASES)
         return PowerSchedule(
-            decide=decide,
-            compass=tuple(
-                max(interval, file.compass.interval_s) if phase in power.compass_asleep_in else file.compass.interval_s
-                for phase, interval in zip(PHASES, decide, strict=True)
-            ),
-            ctd=(file.sample_every_s,) * len(PHASES),
+            decide=tuple(getattr(power.decide_every_s, phase) for phase in PHASES),
+            compass_rests=tuple(phase in power.compass_asleep_in for phase in PHASES),
+            ctd=tuple(getattr(power.sample_every_s, phase) or file.sample_every_s for phase in PHASES),
             gps=tuple(phase in power.gps_in for phase in PHASES),
         )
 

@@ -164,6 +164,26 @@ class Decisions(Table):
     """Hanging in the water."""
 
 
+class Samples(Table):
+    """Time between two samples of the CTD by phase of the dive [s], where it is another than `sample_every_s`.
+
+    The mission says in which phases it samples at all.
+    """
+
+    surface: Interval | None = None
+    """At the surface."""
+    descent: Interval | None = None
+    """On the way down."""
+    inflection: Interval | None = None
+    """While it turns."""
+    ascent: Interval | None = None
+    """On the way up."""
+    recovery: Interval | None = None
+    """At the surface after the mission."""
+    drift: Interval | None = None
+    """While it hangs in the water."""
+
+
 PhaseName = Literal["surface", "descent", "inflection", "ascent", "recovery", "drift"]
 
 
@@ -172,7 +192,8 @@ class Power(Table):
 
     decide_every_s: Decisions = Decisions()
     compass_asleep_in: tuple[PhaseName, ...] = ()
-    """Phases in which the compass measures only as often as the controller decides."""
+    """Phases in which the compass rests between decisions, and measures a second before each."""
+    sample_every_s: Samples = Samples()
     gps_in: tuple[PhaseName, ...] = ("surface", "recovery")
     """Phases in which GPS has power; elsewhere it hears nothing."""
     reserve: Share = 0.1
@@ -219,7 +240,7 @@ class ConfigurationFile(Table):
     parameters: FileName = "parameters"
     """Folder of the parameters and of what must outlive a restart."""
     sample_every_s: Interval = 10.0
-    """Between two samples of the CTD, which is on the acquisition node."""
+    """Between two samples of the CTD, which is on the acquisition node; `power.sample_every_s` has other times."""
     limits: VehicleLimits
     positions: Positions
     can: CanPort = CanPort()

@@ -202,10 +202,11 @@ def _instruments(system: System, view: View) -> tuple[Line, ...]:
 
 
 def counts(source: SourceHealth) -> str:
-    """What of a source was lost and rejected, how often it was silent and started anew: in words, without zeros."""
+    """What of a source was lost and rejected, how often it was silent before and started anew: in words, no zeros."""
+    before = source.silences - (source.condition is Condition.SILENT)
     told = (
-        (source.lost, "lost"), (source.rejected, "rejected"), (source.silences, "× silent"),
-        (source.restarts, "restarts"),
+        (source.lost, "lost"), (source.rejected, "rejected"), (before, "× silent"),
+        (source.restarts, "× restarted"),
     )  # fmt: skip
     words = ", ".join(f"{count}{'' if what[0] == '×' else ' '}{what}" for count, what in told if count)
     return f" ({words})" if words else ""

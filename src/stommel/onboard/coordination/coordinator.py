@@ -16,6 +16,7 @@ from stommel.onboard.coordination.executive_commands import commands as commands
 from stommel.onboard.coordination.health import ALTIMETER, CTD, GPS, RADIO, SOURCES, Health, HealthMonitor
 from stommel.onboard.coordination.logbook.logbook import Logbook
 from stommel.onboard.coordination.navigation import NavigationEstimate, Navigator
+from stommel.onboard.coordination.node_parameters import NodeParameters
 from stommel.onboard.coordination.nodes_control import NodesControl
 from stommel.onboard.coordination.own_instruments import OwnInstruments
 from stommel.onboard.coordination.perception import Perception
@@ -80,6 +81,7 @@ class Coordinator:
         self._encoder = Encoder()
         self._heartbeat = HeartbeatSender(COORDINATOR, self._encoder, before.starts, settings.kind)
         self._nodes = NodesControl.of(self._encoder, before.starts)
+        self.parameters = NodeParameters(self._encoder, settings.node_parameters)
         self._navigator: Navigator | None = None
         usable = settings.usable_energy
         self._battery = None if usable is None else BatteryAccount(usable)
@@ -116,6 +118,7 @@ class Coordinator:
         seen = self.perception
         for received in seen.take(frames, t):
             self._nodes.take(received, t)
+            self.parameters.take(received, t)
             self.recorder.received(received, t)
             self._sleeper.hear(wakes(received))
         self.instruments.hear(t, bytes_in, self.pilot.phase)
@@ -146,7 +149,10 @@ class Coordinator:
         control = pilot.step(readings, state, t, self._sleeper.elapsed)
         commands = commands_of(state, control, self.settings.actuators)
         health = self._look_after(situation, t)
-        self.view = view = View(t, situation, safety, state, commands, health, self._navigate(t), self._account(t))
+        outcomes = self.parameters.outcomes()
+        self.view = view = View(
+            t, situation, safety, state, commands, health, outcomes, self._navigate(t), self._account(t)
+        )
         self.recorder.decided(view, pilot, readings, self._nodes.outcomes(), seen)
         return view
 
@@ -252,6 +258,7 @@ class Coordinator:
             )
         )
         frames += self._nodes.step(self.perception.watch, state, t, dives_soon=self._dives_soon(state, t))
+        frames += self.parameters.step(self.perception.watch, t)
         frames += self._heartbeat.poll(t, NodeState.Operational)
         return frames
 

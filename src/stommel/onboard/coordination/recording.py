@@ -85,6 +85,8 @@ class Recorder:
             log.event(t, "safety:cleared", name)
         for outcome in outcomes:
             log.event(t, "command", f"{outcome.command} to node {outcome.target}: {outcome.result} {outcome.detail}")
+        for parameter in view.parameters:
+            log.event(t, "parameter", parameter.words)
         if pilot.exceptions and pilot.failure != self._failure:
             self._failure = pilot.failure
             log.event(t, "exception", pilot.failure)

@@ -9,6 +9,7 @@ from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.compass.compensation import Masking
 from stommel.onboard.coordination.limits import ActuatorLimits, SafetyLimits
 from stommel.onboard.coordination.navigation import NavigationErrors
+from stommel.onboard.coordination.node_parameters import Wanted
 from stommel.onboard.coordination.power import PowerSchedule
 
 
@@ -30,6 +31,8 @@ class CoordinatorSettings:
     usable_energy: float | None = None
     """Energy of the charged battery that may be taken [J]; None where nobody said."""
     schedule: PowerSchedule = field(default_factory=PowerSchedule)
+    node_parameters: Wanted = field(default_factory=dict)
+    """What parameters of the nodes shall be, by number of the node and name; others are left as they are."""
     kind: NodeKind = field(default_factory=lambda: NodeKind(1, (0, 1, 0)))
     """Of this computer."""
     report_every: float = 60.0

@@ -10,6 +10,7 @@ from stommel.files.toml_reader import read_table
 from stommel.instruments.gnss.driver import GnssSettings
 from stommel.instruments.tcm.driver import CompassSettings
 from stommel.messages.adapters import Adapter, BusError
+from stommel.messages.database import ACQUISITION, MOTION
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.compass.calibration_file import read_calibration
 from stommel.onboard.coordination.compass.compensation import Masking
@@ -87,6 +88,7 @@ class Configuration:
             navigation=self.navigation,
             usable_energy=self.usable_energy,
             schedule=self.schedule,
+            node_parameters={MOTION: file.node_parameters.motion, ACQUISITION: file.node_parameters.acquisition},
             has_altimeter=file.positions.altimeter,
             declination=radians(file.compass.declination_deg),
             calibration=self.calibration,

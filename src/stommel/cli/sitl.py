@@ -90,6 +90,15 @@ def fly(
     separate_nodes: Annotated[
         bool, typer.Option("--separate-nodes", help="Run both nodes in processes of their own.")
     ] = False,
+    parameters: Annotated[
+        Path | None,
+        typer.Option(
+            "--parameters",
+            metavar="FOLDER",
+            parser=folder_parser("--parameters"),
+            help="Folder in which the nodes keep their parameters from flight to flight.",
+        ),
+    ] = None,
     live: Annotated[
         bool | None, typer.Option("--live/--no-live", help="Show the flight; if left out, where there is a terminal.")
     ] = None,
@@ -112,7 +121,9 @@ def fly(
         mission = with_seed(mission, seed)
     if faults and separate_nodes:
         raise typer.BadParameter("a scenario with faults flies in one process", param_hint="--separate-nodes")
-    flown, about = _flown(mission, Injector(faults, mission.scenario.seed), log, times, separate_nodes, live)
+    flown, about = _flown(
+        mission, Injector(faults, mission.scenario.seed), log, times, separate_nodes, live, parameters
+    )
     row = described(flown, None) | about
     with writing("while writing; the files that are there are whole"):
         written = write(flown, output, plots, track)
@@ -120,7 +131,13 @@ def fly(
 
 
 def _flown(
-    mission: "Mission", inject: "Injector", log: Path | None, speed: float | None, separate: bool, live: bool | None
+    mission: "Mission",
+    inject: "Injector",
+    log: Path | None,
+    speed: float | None,
+    separate: bool,
+    live: bool | None,
+    parameters: Path | None,
 ) -> tuple["Flown", dict[str, Any]]:
     """Fly, and say what the software was doing at the end."""
     from stommel.sitl.flight import fly as fly_in_the_loop
@@ -130,7 +147,9 @@ def _flown(
     from stommel.sitl.system import System
 
     logbook = None if log is None else logbook_in(log, mission)
-    system = System(mission, logbook, inject)
+    system = System(mission, logbook, inject, parameters=parameters)
+    for note in system.notes:
+        _say(note)
     pace = None if speed is None else Pace(speed)
     with ExitStack() as around, _told(system, log):
         stop = around.enter_context(Interruption())

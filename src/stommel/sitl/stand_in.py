@@ -114,6 +114,8 @@ class StandIn:
         In which the serial ports appear, by the names of the configuration's tables.
     clock, sleep
         Of the computer.
+    parameters
+        Folder in which the nodes keep their parameters; None: they forget them with this object.
     """
 
     def __init__(
@@ -123,8 +125,9 @@ class StandIn:
         folder: Path,
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
+        parameters: Path | None = None,
     ) -> None:
-        self.system = System(mission)
+        self.system = System(mission, parameters=parameters)
         self.terminals = Terminals(folder, PORTS)
         self._bus = bus
         self._pace = Pace(1.0, clock, sleep)

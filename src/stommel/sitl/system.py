@@ -7,6 +7,7 @@ motion-control node obeys; all through frames of the bus and bytes of the instru
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import degrees, inf
+from pathlib import Path
 
 import numpy as np
 
@@ -34,7 +35,7 @@ from stommel.sitl.equipment import acquisition_settings, coordinator_settings, k
 from stommel.sitl.faults.disk import MemoryDisk
 from stommel.sitl.faults.injector import Injector
 from stommel.sitl.instruments import CompassPort, GnssPort, compass_truth
-from stommel.sitl.nodes import Acquisition, Bus, Motion
+from stommel.sitl.nodes import FILES, Acquisition, Bus, Motion, store_of
 from stommel.sitl.payload import NOTHING, Payload
 from stommel.sitl.plant import Felt, Plant
 
@@ -66,6 +67,8 @@ class System:
         Faults; none if left out. If it has a disk, logbooks are kept there, a new one at each start of the coordinator.
     expires
         Time of the mission at which its time is over for the software [s].
+    parameters
+        Folder in which the nodes keep their parameters; None: they keep them for this flight.
 
     Raises
     ------
@@ -79,6 +82,7 @@ class System:
         logbook: Logbook | None = None,
         inject: Injector | None = None,
         expires: float = inf,
+        parameters: Path | None = None,
     ) -> None:
         self.mission = mission
         self.inject = Injector() if inject is None else inject
@@ -87,8 +91,12 @@ class System:
         machinery, orders = setup.equipment.plant, setup.orders
         self.ports = Ports()
         self.bus: Bus = SimulatedBus(NODES)
-        self.motion: Motion = MotionNode(motion_settings(machinery, orders))
-        self.acquisition: Acquisition = AcquisitionNode(acquisition_settings(machinery), ctd=self.ports.ctd)
+        self.parameters = parameters
+        self._stores = {node: store_of(node, parameters) for node in FILES}
+        self.motion: Motion = MotionNode(motion_settings(machinery, orders), store=self._stores[MOTION])
+        self.acquisition: Acquisition = AcquisitionNode(
+            acquisition_settings(machinery), store=self._stores[ACQUISITION], ctd=self.ports.ctd
+        )
         self.expires = expires
         self.payload = Payload(mission.scenario)
         self.switched = _SWITCHED_OFF
@@ -109,6 +117,17 @@ class System:
     def motion_mode(self) -> Mode | None:
         """What the motion-control node is about; None if it is in a process of its own."""
         return self.motion.link.modes.mode if isinstance(self.motion, MotionNode) else None
+
+    @property
+    def notes(self) -> list[str]:
+        """What was wrong with the parameters that the nodes of this process have kept, in words."""
+        nodes = ((MOTION, self.motion), (ACQUISITION, self.acquisition))
+        return [
+            f"{FILES[number]} node: {note}"
+            for number, node in nodes
+            if isinstance(node, MotionNode | AcquisitionNode)
+            for note in node.link.notes
+        ]
 
     def step(self) -> None:
         """Let one step pass."""
@@ -172,12 +191,13 @@ class System:
         """Let a computer start anew after a loss of power, with what its store keeps."""
         self.restarts[node] += 1
         self.bus.receive(node)
+        restarts, store = self.restarts[node], self._stores.get(node)
         machinery, orders = self.plant.setup.equipment.plant, self.plant.setup.orders
         if node == MOTION:
-            self.motion = MotionNode(motion_settings(machinery, orders), self.restarts[node])
+            self.motion = MotionNode(motion_settings(machinery, orders), restarts, store)
         elif node == ACQUISITION:
             settings = acquisition_settings(machinery)
-            self.acquisition = AcquisitionNode(settings, self.restarts[node], ctd=self.ports.ctd)
+            self.acquisition = AcquisitionNode(settings, restarts, store, ctd=self.ports.ctd)
         else:
             self.coordinator = self._started_coordinator(t, self.coordinator.recorder.logbook)
 

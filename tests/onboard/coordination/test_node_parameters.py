@@ -214,6 +214,30 @@ def test_what_becomes_of_a_write(node: int, number: int, value: Value, result: s
     assert (after != before) == (result == "Ok")
 
 
+def test_a_counter_is_read_again_when_asked() -> None:
+    bench = Bench({MOTION: {"quiet_after": 8.0}}).run(LONG)
+    crept = {p.name: p.number for p in PARAMETERS[MOTION]}["oil_crept"]
+    bench.nodes[MOTION].server.write(crept, 0x3E800000)  # 0.25 as 32 bits
+    assert bench.one(MOTION, crept).value == 0.0
+    bench.mirror.read(MOTION, crept)
+    bench.run(3)
+    assert bench.one(MOTION, crept).value == 0.25
+    bench.results()
+    bench.mirror.read(MOTION, 99)
+    assert bench.run(1).results() == ["NoSuchParameter"]
+
+
+def test_what_is_written_now_counts_more_than_the_configuration_until_the_next_start() -> None:
+    bench = Bench({MOTION: {"quiet_after": 8.0}}).run(LONG)
+    bench.mirror.write(MOTION, QUIET_AFTER, 9.0)
+    bench.mirror.read(MOTION, QUIET_AFTER)
+    bench.run(6)
+    assert bench.nodes[MOTION].server["quiet_after"] == 9.0 == bench.one(MOTION, QUIET_AFTER).value
+    bench.nodes[MOTION].restart()
+    bench.run(10)
+    assert bench.nodes[MOTION].server["quiet_after"] == 8.0
+
+
 def test_a_store_that_takes_nothing_is_told() -> None:
     bench = Bench().run(LONG)
 

@@ -34,7 +34,7 @@ class ParameterState(Enum):
 
 
 class NodeParameter(NamedTuple):
-    """A parameter of a node. Numbers are None until the node has told them."""
+    """A parameter of a node. Numbers are None until the node has told them, and of the time when it did."""
 
     number: int
     """On the bus, 0 to 255."""
@@ -105,6 +105,7 @@ class NodeMirror:
                     f"{name}: is no parameter of the {NODES[node]} node; there are {', '.join(numbers)}"
                 )
         self._wanted = {numbers[name]: value for name, value in wanted.items()}
+        self._to_set: dict[int, Value] = {}
         self._asked: deque[Request] = deque()
         self._reads: deque[Request] = deque()
         self._current: Request | None = None
@@ -117,12 +118,13 @@ class NodeMirror:
         """Take what is asked for; return why it cannot be, if it cannot."""
         if not self._there:
             return "NoAnswer"
-        if request.operation == "Write":
-            parameter = self.known.get(request.number)
-            if parameter is None:
-                return "NoSuchParameter"
+        parameter = self.known.get(request.number)
+        if parameter is None and request.operation != "Save":
+            return "NoSuchParameter"
+        if parameter is not None and request.operation == "Write":
             if request.value is None or _bits(parameter.type, request.value) is None:
                 return "OutOfRange"
+            self._to_set.pop(request.number, None)  # what somebody says now counts more
         if len(self._asked) >= MOST_WAITING:
             return "Busy"
         self._asked.append(request)
@@ -177,8 +179,8 @@ class NodeMirror:
         if request.operation == _LAST_READ:
             known = known._replace(state=ParameterState.KNOWN)
         self.known[request.number] = known
-        wanted = self._wanted.get(request.number)
-        if request.operation == "Read" and wanted is not None and _bits(known.type, wanted) != answer.bits:
+        wanted = self._to_set.pop(request.number, None) if request.operation == "Read" else None
+        if wanted is not None and _bits(known.type, wanted) != answer.bits:
             self._set(request.number, wanted)
 
     def _set(self, number: int, value: Value) -> None:
@@ -200,6 +202,7 @@ class NodeMirror:
     def _begin(self) -> None:
         """Ask for everything, first of all what shall be something."""
         self._mark(ParameterState.ASKED)
+        self._to_set = dict(self._wanted)
         numbers = (*self._wanted, *(number for number in self.known if number not in self._wanted))
         self._reads = deque(Request(operation, number) for number in numbers for operation in _READS)
         self._begins_again = inf

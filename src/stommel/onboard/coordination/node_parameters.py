@@ -54,6 +54,10 @@ class NodeParameters:
         """
         self._ask(node, Request("Write", number, value))
 
+    def read(self, node: int, number: int) -> None:
+        """Ask again for a value that the node itself may have changed, as a counter; the mirror then has it."""
+        self._ask(node, Request("Read", number))
+
     def save(self, node: int) -> None:
         """Let a node keep its values over its next start; the outcome follows."""
         self._ask(node, Request("Save", 0))

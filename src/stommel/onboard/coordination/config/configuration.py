@@ -18,6 +18,7 @@ from stommel.onboard.coordination.config.tables import ConfigurationFile
 from stommel.onboard.coordination.limits import ActuatorLimits, SafetyLimits
 from stommel.onboard.coordination.logbook.logbook import LogSettings
 from stommel.onboard.coordination.navigation import NavigationErrors
+from stommel.onboard.coordination.node_parameters import Wanted
 from stommel.onboard.coordination.power import PowerSchedule
 from stommel.onboard.coordination.settings import CoordinatorSettings
 
@@ -88,7 +89,7 @@ class Configuration:
             navigation=self.navigation,
             usable_energy=self.usable_energy,
             schedule=self.schedule,
-            node_parameters={MOTION: file.node_parameters.motion, ACQUISITION: file.node_parameters.acquisition},
+            node_parameters=self.node_parameters,
             has_altimeter=file.positions.altimeter,
             declination=radians(file.compass.declination_deg),
             calibration=self.calibration,
@@ -96,6 +97,12 @@ class Configuration:
             compass=CompassSettings(interval=file.compass.interval_s, polled=any(self.schedule.compass_rests)),
             gnss=GnssSettings(format=file.gnss.format, port=file.gnss.receiver_port, interval=file.gnss.interval_s),
         )
+
+    @property
+    def node_parameters(self) -> Wanted:
+        """What parameters of the nodes shall be, by number of the node."""
+        wanted = self.file.node_parameters
+        return {node: values for node, values in ((MOTION, wanted.motion), (ACQUISITION, wanted.acquisition)) if values}
 
     @property
     def log(self) -> LogSettings:

@@ -95,6 +95,20 @@ def test_a_compass_that_rests_measures_just_before_each_decision(system: Callabl
     assert "silent compass" not in alarms
 
 
+def test_a_slow_compass_is_not_called_silent(system: Callable[[Change], System]) -> None:
+    flying = system(lambda s: replace(s, compass=CompassSettings(interval=10.0, polled=False, silence=25.0)))
+    readings: list[float] = []
+    while flying.plant.time < 400.0:
+        before = flying.coordinator.perception.attitude.at
+        flying.step()
+        view = flying.coordinator.view
+        assert view is not None
+        if flying.coordinator.perception.attitude.at > before:
+            readings.append(view.t)
+        assert not view.situation.compass_silent or len(readings) < 1
+    assert set(np.diff(readings)) == {10.0}
+
+
 def test_a_dead_compass_is_found_although_it_rests(system: Callable[[Change], System]) -> None:
     """Oracle: its failsafe, after 60 s of silence, which begins when two decisions have had no reading."""
     schedule = PowerSchedule(decide=by_phase(1.0, descent=10.0), compass_rests=by_phase(False, descent=True))

@@ -18,6 +18,7 @@ from stommel.errors import FileError
 from stommel.files.docstrings import attribute_docstrings
 from stommel.files.table_keys import models_in
 from stommel.instruments.serial_port import BAUD_RATES
+from stommel.instruments.tcm.driver import CompassSettings
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.config import ConfigurationFile, read_configuration
 from stommel.onboard.coordination.config.text import configuration_text
@@ -115,6 +116,7 @@ def test_what_may_be_left_out(tmp_path: Path) -> None:
     assert found.calibration == CompassCalibration()
     assert (found.adapter.interface, found.adapter.channel) == ("socketcan", "can0")
     assert found.coordinator.masking.longest == 20.0
+    assert found.compass == CompassSettings(polled=False)
     assert found.path(found.file.log.folder) == tmp_path / "log"
 
 
@@ -137,6 +139,12 @@ def test_units_of_the_file_become_si(tmp_path: Path) -> None:
     assert found.safety.longest_submerged == 90_000.0
     assert found.safety.vacuum_lost == 80_000.0
     assert found.actuators.r_px_surface == 0.49
+
+
+def test_a_slow_compass_may_be_quiet_for_longer(tmp_path: Path) -> None:
+    changed = CONFIGURATION.replace('port = "/dev/a"', 'port = "/dev/a"\ninterval_s = 10.0')
+    found = read_configuration(written(tmp_path, changed)).compass
+    assert (found.interval, found.silence, found.polled) == (10.0, 25.0, False)
 
 
 def test_calibration_of_the_compass_is_read(tmp_path: Path) -> None:

@@ -49,13 +49,13 @@ class NodeParameter(NamedTuple):
 
 
 class ParameterOutcome(NamedTuple):
-    """What became of a write or of a saving."""
+    """What became of what was asked of a node."""
 
     node: int
     number: int
     """Of the parameter; 0 of a saving."""
     operation: str
-    """`Write` or `Save`."""
+    """`Write` or `Save`; `Read` where that cannot be asked."""
     value: Value | None
     """That was to be written; None of a saving."""
     result: str

@@ -23,6 +23,8 @@ from stommel.onboard.coordination.power import PowerSchedule
 from stommel.onboard.coordination.settings import CoordinatorSettings
 
 _MIB = 1 << 20
+_PERIODS_OF_SILENCE = 2.5
+"""Of a compass that measures slowly, after which it is set up anew."""
 
 
 @dataclass(frozen=True)
@@ -94,9 +96,16 @@ class Configuration:
             declination=radians(file.compass.declination_deg),
             calibration=self.calibration,
             masking=Masking(longest=file.compass.hold_s, settling=file.compass.settle_s),
-            compass=CompassSettings(interval=file.compass.interval_s, polled=any(self.schedule.compass_rests)),
+            compass=self.compass,
             gnss=GnssSettings(format=file.gnss.format, port=file.gnss.receiver_port, interval=file.gnss.interval_s),
         )
+
+    @property
+    def compass(self) -> CompassSettings:
+        """How the compass is to measure; one that sends by itself cannot rest."""
+        every = self.file.compass.interval_s
+        silence = max(CompassSettings.silence, _PERIODS_OF_SILENCE * every)
+        return CompassSettings(interval=every, polled=any(self.schedule.compass_rests), silence=silence)
 
     @property
     def node_parameters(self) -> Wanted:

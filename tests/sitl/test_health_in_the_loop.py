@@ -117,6 +117,14 @@ def test_a_sensor_that_measures_nothing_is_silent_though_its_node_speaks() -> No
     assert now["altimeter"].heard - now["pressure sensor"].heard == silent_for
 
 
+def test_a_shore_that_speaks_is_heard() -> None:
+    system = stepped(started(), 20)
+    assert health(system)["radio"].condition is Condition.WAITING
+    system.link.take(b"\x00" * 7, 20.0)
+    now = health(stepped(system, round(HEALTH_EVERY)))["radio"]
+    assert (now.condition, now.heard) == (Condition.WELL, 7)
+
+
 def test_strangers_are_named() -> None:
     system = stepped(started(), 60)
     once(system, "Depth", lambda _, frame: (frame, Frame(0x333, b""), Frame(0x123, b"\x01")))

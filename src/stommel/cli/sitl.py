@@ -116,7 +116,7 @@ def fly(
     from stommel.sitl.faults.injector import Injector
     from stommel.sitl.scenario import load_scenario
 
-    mission, faults = load_scenario(mission_path(scenario))
+    mission, faults, _ = load_scenario(mission_path(scenario))
     if seed is not None:
         mission = with_seed(mission, seed)
     if faults and separate_nodes:
@@ -178,10 +178,10 @@ def _nodes(system: "System", separate: bool, *, in_real_time: bool) -> Iterator[
     if not separate:
         yield "in one process"
         return
-    from stommel.sitl.multicast import Multicast, works
+    from stommel.sitl.multicast import own_bus, works
     from stommel.sitl.separate_nodes import SeparateNodes
 
-    multicast = Multicast.own() if in_real_time else None
+    multicast = own_bus() if in_real_time else None
     if multicast is not None:
         objection = works(multicast)
         if objection:

@@ -13,6 +13,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from stommel.messages.adapters import Adapter
 from stommel.messages.bus import CanBus
 from stommel.messages.database import ACQUISITION, MOTION
 from stommel.messages.frames import Frame
@@ -23,7 +24,6 @@ from stommel.onboard.execution.motion_node import MotionNode
 from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
 from stommel.onboard.nodes.motion_settings import MotionSettings
 from stommel.sitl.ctd_port import CtdPort
-from stommel.sitl.multicast import Multicast
 from stommel.sitl.nodes import store_of
 
 if TYPE_CHECKING:
@@ -44,11 +44,11 @@ class Asked(NamedTuple):
     """What else its `step` takes: the interval [s], or the CTD's bytes."""
 
 
-def serve(connection: Connection, settings: Settings, multicast: Multicast | None, parameters: Path | None) -> None:
+def serve(connection: Connection, settings: Settings, multicast: Adapter | None, parameters: Path | None) -> None:
     """Be a node until the connection ends, its parameters in a folder; this is the main function of its process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for whom started us, who then ends us
     with ExitStack() as open_things, suppress(EOFError, OSError):
-        bus = None if multicast is None else open_things.enter_context(multicast.connect())
+        bus = None if multicast is None else open_things.enter_context(CanBus(multicast))
         step = _stepper(settings, parameters)
         connection.send(os.getpid())
         while True:

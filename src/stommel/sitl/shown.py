@@ -11,10 +11,12 @@ from stommel.onboard.coordination.failsafes import Reaction
 from stommel.onboard.coordination.health import (
     ACQUISITION_NODE,
     ALTIMETER,
+    BATTERY_GAUGE,
     COMPASS,
     CTD,
     GPS,
     MOTION_NODE,
+    PRESSURE_SENSOR,
     RADIO,
     Condition,
     SourceHealth,
@@ -192,12 +194,13 @@ def _instruments(system: System, view: View) -> tuple[Line, ...]:
     own = system.coordinator.instruments
     words = {COMPASS: str(own.compass.health(view.t).state), GPS: str(own.gnss.health(view.t).state), RADIO: "on"}
     words |= {CTD: "samples", ALTIMETER: "answers"}
+    sources = {source.name: source for source in view.health.sources}
+    behind = [name for name in (PRESSURE_SENSOR, BATTERY_GAUGE) if sources[name].condition is not Condition.WELL]
     lines = []
-    for source in view.health.sources:
-        name, condition = source.name, source.condition
-        if name in words or not (name in _NODES or condition is Condition.WELL):
-            speaks = condition in (Condition.WELL, Condition.WAITING) and name in words
-            lines.append(Line(name, (words[name] if speaks else condition.value) + counts(source), HOW[condition]))
+    for name in (*words, *behind):
+        source, condition = sources[name], sources[name].condition
+        speaks = condition in (Condition.WELL, Condition.WAITING) and name in words
+        lines.append(Line(name, (words[name] if speaks else condition.value) + counts(source), HOW[condition]))
     return tuple(lines)
 
 

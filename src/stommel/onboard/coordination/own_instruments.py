@@ -41,6 +41,8 @@ class OwnInstruments:
         self._compensation = CompassCompensation(settings.calibration, settings.masking, settings.declination)
         self._schedule: PowerSchedule = settings.schedule
         self._seen = seen
+        self.fix: Fix | None = None
+        """The last position by GPS that was believed."""
         self._fix_sigma: float | None = None
 
     def hear(self, t: float, bytes_in: Mapping[str, bytes], phase: int) -> None:
@@ -51,7 +53,7 @@ class OwnInstruments:
             depth = seen.value("Depth", "depth", float("nan"))
             for outcome in self.gnss.take(bytes_in[GNSS], t, depth):
                 if isinstance(outcome, Fix):
-                    self._fix_sigma = outcome.sigma
+                    self.fix, self._fix_sigma = outcome, outcome.sigma
                     seen.take_fix(outcome.t - outcome.age, outcome.latitude, outcome.longitude)
         self.radio.take(bytes_in.get(RADIO, b""), t)
 

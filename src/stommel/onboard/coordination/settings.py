@@ -30,6 +30,8 @@ class CoordinatorSettings:
     navigation: NavigationErrors = field(default_factory=NavigationErrors)
     usable_energy: float | None = None
     """Energy of the charged battery that may be taken [J]; None where nobody said."""
+    mean_power_over: float = 14_400.0
+    """Time over which the mean power is taken [s]."""
     schedule: PowerSchedule = field(default_factory=PowerSchedule)
     node_parameters: Wanted = field(default_factory=dict)
     """What parameters of the nodes shall be, by number of the node and name; others are left as they are."""

@@ -21,6 +21,7 @@ import can_tables
 import command_tables
 import dive_cycle
 import fault_tables
+import link_tables
 import log_tables
 import node_tables
 import vehicle_software
@@ -215,6 +216,7 @@ def write_pages(app: Sphinx) -> None:
     )
     _write(folder / "validation.md", validation_report())
     _write(folder / "can-messages.md", "".join(can_tables.can_tables()))
+    _write(folder / "link-messages.md", "".join(link_tables.link_tables()))
     _write(folder / "log-records.md", "".join(log_tables.log_tables()))
     _write(folder / "faults.md", "".join(fault_tables.fault_tables()))
     _write(folder / "link-commands.md", "".join(command_tables.command_table()))

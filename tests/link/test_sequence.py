@@ -61,3 +61,12 @@ def test_numbers_that_come_round_are_no_duplicates(every: float) -> None:
         hear(watch, number, 7, every * number)  # the same content every time
     assert watch.counts.good == 1024
     assert watch.counts.duplicate == 0
+
+
+def test_a_restart_whose_first_frames_were_lost_is_told_by_the_pace() -> None:
+    watch = SequenceWatch()
+    for number in range(101):
+        hear(watch, number, number, 0.1 * number)
+    for number in range(60, 100):  # after a second, in which ten can have been sent, not 215
+        hear(watch, number, 1000 + number, 5.1 + 0.1 * number)
+    assert (watch.counts.lost, watch.counts.restarts, watch.counts.good) == (0, 1, 141)

@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stommel.link.channel.channel import Channel
+from stommel.link.channel.channel import Channel, ChannelEnd
 from stommel.link.channel.conversation import Conversation
 from stommel.link.channel.settings import ChannelSettings
+from stommel.link.exchange import exchange
 from stommel.link.frames import FrameSplitter, RawFrame, frame_bytes
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.rate import LineRate, RateError
@@ -232,6 +233,8 @@ def test_after_a_day_of_silence_data_are_received_at_once() -> None:
 def test_a_rate_that_cannot_be_is_refused() -> None:
     with pytest.raises(RateError, match=r"link\.bit_rate = 0: must be from 10 to 1e9"):
         LineRate(0)
+    with pytest.raises(RateError, match=r"link\.turn_round = -1: must be from 0 to 10"):
+        LineRate(9600.0, turn_round=-1)
 
 
 def test_session_code_is_fast_enough_for_the_figure() -> None:
@@ -243,3 +246,42 @@ def test_session_code_is_fast_enough_for_the_figure() -> None:
         receiver.take(data, 0.0)
     assert receiver.peers()[1, 1].good == 2000
     assert time.process_time() - begin < 2.0
+
+
+class Silent:
+    """A modem that says nothing of what waits in it, as most radios."""
+
+    def __init__(self, end: ChannelEnd) -> None:
+        self._end = end
+
+    def read(self, t: float) -> bytes:
+        return self._end.read(t)
+
+    def write(self, data: bytes, t: float) -> int:
+        self._end.write(data, t)
+        return len(data)
+
+    def room(self, t: float) -> int:
+        return 65_536
+
+    def waiting(self, t: float) -> int:
+        return 0
+
+
+@pytest.mark.parametrize("every", [0.1, 0.3, 1.0])
+def test_a_modem_that_says_nothing_of_its_buffer_does_not_overflow(every: float) -> None:
+    """A file one way and a word the other way now and then, for two minutes; the line is used well all the same."""
+    ears, t = Listener(), 0.0
+    vehicle = Session(1, 1, [Speaker(Priority.DATA, map(file_piece, itertools.count()))], rate=LineRate(115_200.0))
+    shore = Session(255, 190, [ears], rate=LineRate(115_200.0))
+    channel = Channel(ChannelSettings(latency=0.5, whole_frames=True))
+    for number in range(12_000):
+        t = 0.01 * number
+        if number % round(every / 0.01) == 0:
+            shore.outbox.put(Priority.COMMAND, *file_piece(0))
+        exchange(vehicle, Silent(channel.vehicle), t)
+        exchange(shore, Silent(channel.shore), t)
+    counts = channel.vehicle.counts
+    assert counts.refused_bytes <= 0.005 * counts.sent_bytes
+    free = 1.0 - (275 / 11_520 + 0.02) / every
+    assert len(ears.heard) * 263 >= 0.93 * free * 11_520 * t

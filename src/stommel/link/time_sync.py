@@ -122,6 +122,11 @@ class TimeSync:
         low, high = known.bounds(t)
         return Offset(low - ours, high - ours)
 
+    def latest(self, peer: Peer, t: float) -> float | None:
+        """The latest that a peer's clock can show at a time [s]; None before its first answer."""
+        known = self._peers.get(peer)
+        return None if known is None else t + known.bounds(t)[1]
+
     def timer(self, peer: Peer) -> RetransmissionTimer | None:
         """Round trip to a peer and back; None before its first answer."""
         return self._peers[peer].timer if peer in self._peers else None

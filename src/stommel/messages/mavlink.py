@@ -164,11 +164,28 @@ def enumeration(name: str) -> Mapping[str, int]:
         There is none.
     """
     from pymavlink.dialects.v20 import common  # noqa: PLC0415
-    from pymavlink.generator.mavparse import MAVXML  # noqa: PLC0415
 
     if name in common.enums:
         return {entry.name: int(value) for value, entry in common.enums[name].items()}
+    return {entry.name: int(entry.value) for entry in _own_entries(name)}
+
+
+@cache
+def entry_words(name: str) -> Mapping[int, str]:
+    """Return what the entries of an enumeration of `glider.xml` mean, by their values.
+
+    Raises
+    ------
+    MessageError
+        There is no such enumeration.
+    """
+    return {int(entry.value): entry.description for entry in _own_entries(name)}
+
+
+def _own_entries(name: str) -> list[Any]:
+    from pymavlink.generator.mavparse import MAVXML  # noqa: PLC0415
+
     for found in MAVXML(str(DIALECT), "2.0").enum:
         if found.name == name:
-            return {entry.name: int(entry.value) for entry in found.entry}
+            return [entry for entry in found.entry if not entry.name.endswith("_ENUM_END")]
     raise MessageError(f"{name}: is no enumeration of the common dialect or of {DIALECT.name}")

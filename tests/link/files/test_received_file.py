@@ -133,7 +133,9 @@ def test_a_journal_of_garbage_is_none() -> None:
 def test_a_full_disk_is_named_and_the_part_is_kept() -> None:
     disk = MemoryDisk(room=3000)
     file = ReceivedFile(disk, "a.log", IDENTITY)
-    with pytest.raises(ReceptionError, match=r"a.log: No space left on device; \d+ of 5000 bytes are kept in a.log.part"):
+    with pytest.raises(
+        ReceptionError, match=r"a.log: No space left on device; \d+ of 5000 bytes are kept in a.log.part"
+    ):
         for at, piece in PIECES:
             file.write(at, piece, 0.0)
     kept = file.received.bytes

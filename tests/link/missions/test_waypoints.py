@@ -145,10 +145,11 @@ def test_a_vehicle_that_does_not_answer_fails_within_its_time() -> None:
 def test_a_refusal_names_the_item_and_what_is_allowed() -> None:
     vehicle = Vehicle()
     client, line = waypoints_joined(vehicle)
-    vehicle.refusals = [WaypointRefusal("dives.depth_m = 300 m: must be between 0 and 200 m")]
+    vehicle.refusals = [WaypointRefusal("depth_m = 300: must be between 0 and 200 m"), WaypointRefusal("ashore", 2)]
     client.send(plan(3), line.t)
     outcome = ended(client, line)
-    assert (outcome.ending, outcome.words) == (Ending.REFUSED, vehicle.refusals[0].words)
+    assert outcome.ending is Ending.REFUSED
+    assert sorted(outcome.words.split("; ")) == ["depth_m = 300: must be between 0 and 200 m", "item 2: ashore"]
     client.send(plan(3)._replace(depth=-5.0), line.t)
     assert client.outcome is not None
     assert client.outcome.words == "item 0: z = 5 m: must be minus the depth of the dives, or 0 to keep it"
@@ -216,7 +217,7 @@ def test_a_second_station_cannot_end_an_upload_nor_mix_into_it() -> None:
     vehicle = Vehicle()
     client, line = waypoints_joined(vehicle)
     client.send(plan(30), line.t)
-    line.run(lambda: line.counted("MISSION_ITEM_INT") == 10, 60.0)
+    line.run(lambda: line.counted("MISSION_REQUEST_INT") == 11, 60.0)
     server = line.vehicle.services[0]
     for name, values in (
         ("MISSION_COUNT", {**TO, "count": 1}),

@@ -117,7 +117,10 @@ def test_a_node_that_is_being_read_is_waited_for() -> None:
     client.refresh(line.t)
     line.wait(20.0)
     assert client.refreshed is None
-    vehicle.states[MOTION_COMPONENT] = ParameterState.KNOWN
+    vehicle.states[MOTION_COMPONENT], vehicle.values[MOTION_COMPONENT][5] = ParameterState.KNOWN, None
+    line.wait(20.0)
+    assert client.refreshed is None, "one value is not known yet"
+    vehicle.values[MOTION_COMPONENT][5] = 6
     line.run(lambda: client.refreshed is not None, 10.0)
     assert {outcome.ending for outcome in client.refreshed or ()} == {Ending.WHOLE}
 

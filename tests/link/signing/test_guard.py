@@ -7,6 +7,9 @@ from collections.abc import Callable
 import pytest
 
 from stommel.link.frames import frame_bytes
+from stommel.link.outbox import Outbox, Priority
+from stommel.link.service import Received
+from stommel.link.session import Session
 from stommel.link.signing.guard import Guard, Mode, PortGuard
 from stommel.link.signing.refusals import Refusal
 from stommel.link.signing.signature import signed
@@ -328,3 +331,34 @@ def test_a_key_copied_before_its_first_use_needs_no_proof() -> None:
     boat.disk.remove(NAME)
     boat.start(CLOCK)
     assert boat.guard.in_doubt
+
+
+def test_two_sessions_with_guards_talk_and_a_stranger_is_not_heard() -> None:
+    """Through the session itself: every frame that leaves is signed, and a session of another key is refused whole."""
+    boat, land = vehicle(), shore()
+    stranger = shore(keys_of(OTHER))
+    ends = {}
+    for end in (boat, land, stranger):
+        ends[end] = Session(end.system, end.component, [end.challenge, Beating()], end.port)
+    for t in range(1, 20):
+        said = {end: session.poll(float(t), 1000) for end, session in ends.items()}
+        assert ends[boat].take(said[land], float(t))
+        assert not ends[boat].take(said[stranger], float(t))
+        assert ends[land].take(said[boat], float(t))
+        assert not ends[stranger].take(said[boat], float(t))
+    assert boat.guard.refusals.by_reason == {Refusal.WRONGLY_SIGNED: 19}
+
+
+class Beating:
+    """Says one heartbeat a second."""
+
+    def __init__(self) -> None:
+        self._said = -1.0
+
+    def take(self, received: Received, t: float) -> None:
+        pass
+
+    def poll(self, t: float, outbox: Outbox) -> None:
+        if t > self._said:
+            outbox.put(Priority.STATE, "HEARTBEAT", {"type": 2, "mavlink_version": 3})
+            self._said = t

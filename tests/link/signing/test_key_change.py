@@ -213,6 +213,43 @@ def test_a_confirmation_that_is_held_back_for_an_hour_locks_nobody_out() -> None
         assert boat.keys.read().current != KEY
 
 
+def test_an_offer_that_is_repeated_before_its_answer_came_changes_nothing() -> None:
+    """A round trip of 20 s, longer than the first time-outs: the vehicle says one public key, however often."""
+    boat, land, t = pair()
+    land.offer.start(t)
+    under_way: list[tuple[float, End, bytes]] = []
+    for _ in range(100):
+        t += 1.0
+        for one, other in ((land, boat), (boat, land)):
+            under_way += [(t + 10.0, other, frame) for frame in one.poll(t)]
+        for due, end, frame in under_way:
+            if due == t:
+                end.hear(frame, t)
+    assert land.offer.outcome.state is ChangeState.DONE
+    answers = [raw_frame(frame) for _, _, frame in under_way if raw_frame(frame).message.name == "KEY_CHANGE_ANSWER"]
+    assert len(answers) > 1
+    assert len({answer.payload for answer in answers}) == 1
+
+
+def test_a_vehicle_that_restarts_and_answers_again_is_believed() -> None:
+    """It has forgotten its first answer, and holds the key of the second alone."""
+    boat, land, t = pair()
+    land.offer.start(t)
+    answers = []
+    for later in (1.0, 60.0):
+        offer = land.poll(t + later)[0]
+        assert boat.hears(offer, t + later)
+        answers.append(boat.poll(t + later)[0])
+        if later == 1.0:
+            boat.start(0.0)
+    t += 61.0
+    for answer in answers:
+        assert land.hear(answer, t) == ["KEY_CHANGE_ANSWER"]
+        boat.hear(land.poll(t)[0], t)
+    talk(boat, land, t)
+    assert land.offer.outcome.state is ChangeState.DONE
+
+
 # refusals
 
 
@@ -225,6 +262,7 @@ def test_a_key_file_that_cannot_be_written_ends_the_change_with_a_reason(broken:
     assert outcome.state is ChangeState.FAILED
     words = "the vehicle refuses: its disk does not keep the key" if broken == "boat" else "No space left on device"
     assert words in outcome.reason
+    assert (boat if broken == "boat" else land).guard.keys.next is None  # type: ignore[union-attr]
     assert boat.keys.read().current == land.keys.read().current == KEY
     assert understand(boat, land, t)
 
@@ -252,8 +290,9 @@ def test_a_disk_that_fails_at_the_last_write_leaves_both_talking(broken: str) ->
         t = talk(boat, land, t, 8.0)
         assert understand(boat, land, t)
     end.keys.broken = False
-    t = talk(boat, land, t, 15.0)
-    assert boat.keys.read().current == land.keys.read().current != KEY
+    Air().change(boat, land, talk(boat, land, t, 15.0), 20)
+    assert land.offer.outcome.state is ChangeState.DONE
+    assert boat.keys.keys == land.keys.keys
     assert not end.guard.alarm
 
 

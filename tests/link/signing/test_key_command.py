@@ -23,6 +23,7 @@ def test_a_new_key_is_private_shown_by_its_fingerprint_and_sound(stommel: Comman
             answer = stommel("link", "key", verb, str(file), *arguments)
             assert answer.status == 0
             assert keys.current.fingerprint in answer.out
+            assert made["made"] in answer.out
             assert keys.current.secret.hex() not in answer.out
 
 

@@ -200,6 +200,15 @@ def test_any_damage_is_doubt_and_nothing_is_accepted() -> None:
     assert Stamps(Disk(), LEAST, CLOCK, fresh=False).in_doubt
 
 
+def test_a_proof_ends_the_doubt_and_lets_no_older_frame_in() -> None:
+    """Also not of another sender, whose clock was ten minutes ahead of the one that has proved to be there."""
+    stamps = Stamps(Disk(), LEAST, 0.0, fresh=False)
+    stamps.prove(SHORE, LEAST + MINUTE, 0.0)
+    assert not stamps.in_doubt
+    assert stamps.check((254, 190, 0), LEAST + 11 * MINUTE, 0.0) is Refusal.REPLAYED
+    assert stamps.check((254, 190, 0), stamps.next(0.0) + 1, 0.0) is None
+
+
 def test_a_full_disk_is_told_and_the_link_goes_on() -> None:
     disk = Disk()
     disk.room = 0

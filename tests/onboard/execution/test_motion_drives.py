@@ -261,6 +261,42 @@ def test_oil_that_creeps_away_is_pumped_back_and_counted():
     assert told == pytest.approx(bench.node.drives.engine.crept, rel=0.02)
 
 
+@pytest.mark.parametrize(("leak", "slips"), [(3e-7, False), (7e-7, False), (9e-7, True), (3e-6, True), (6e-6, True)])
+def test_oil_that_slips_away_is_a_stuck_valve(leak: float, slips: bool) -> None:
+    """Oracle: the pump brings 8.3 ml/s; above a tenth of that, 0.83 ml/s, it does little else than keep the oil."""
+    bench = MotionBench()
+    bench.go_to(1e-4)
+    bench.run(30)
+    bench.plant.leak = leak
+    bench.run(60)
+    assert (("ValveStuck", True) in bench.emergencies()) is slips
+    bench.plant.leak = 0.0
+    bench.run(60)
+    assert ("ValveStuck", False) not in bench.emergencies()
+    bench.command("ClearFault")
+    bench.run(3)
+    assert (("ValveStuck", False) in bench.emergencies()) is slips
+
+
+def test_oil_that_runs_past_its_set_point_slips_too() -> None:
+    """Oracle: a valve that sticks open as the oil runs in never lets it rest at its set point."""
+    bench = MotionBench()
+    bench.go_to(-5e-5)
+    bench.run(15)
+    bench.plant.leak = 3e-6
+    bench.run(12)
+    assert -7e-5 < bench.plant.V_b < -4e-5
+    assert bench.emergencies() == [("ValveStuck", True)]
+
+
+def test_a_new_set_point_is_no_slipping() -> None:
+    bench = MotionBench()
+    for goal in (1e-4, 1.02e-4, 1.04e-4, 1.5e-4, 2e-4):
+        bench.go_to(goal)
+        bench.run(8)
+    assert bench.emergencies() == []
+
+
 def test_status_comes_each_second_and_ten_times_a_second_while_something_moves():
     bench = MotionBench(0.1)
     bench.run(10)

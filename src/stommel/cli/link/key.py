@@ -10,19 +10,23 @@ from stommel.cli.finish import finish
 from stommel.cli.numbers import count_option
 from stommel.cli.options import ForceOption, JsonOption
 from stommel.cli.output import show_notes, show_values
-from stommel.cli.paths import refuse_existing
+from stommel.cli.paths import file_parser, refuse_existing
 
 if TYPE_CHECKING:
     from stommel.link.signing.keys import Keys
 
 key_app = typer.Typer(no_args_is_help=True, help="The key by which a vehicle knows its shore.")
 
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="The key file of a vehicle.")]
+NewFile = Annotated[
+    Path,
+    typer.Argument(metavar="KEYFILE", parser=file_parser("KEYFILE", ".key"), help="The file to write, .key."),
+]
+FileArgument = Annotated[Path, typer.Argument(metavar="KEY", help="The key file of a vehicle.")]
 
 
 @key_app.command("new")
 def new(
-    file: FileArgument,
+    file: NewFile,
     vehicle: Annotated[int, count_option("--vehicle", 1, 250, "MAVLink system of the vehicle")] = 1,
     force: ForceOption = False,
     as_json: JsonOption = False,
@@ -31,10 +35,8 @@ def new(
 
     Example: stommel link key new zju-1.key --vehicle 1
     """
-    from stommel.files.whole import require_file
     from stommel.link.signing.key_file import KeyFile, new_keys
 
-    require_file(file)
     refuse_existing(file, force)
     keys = new_keys(vehicle, time.time())
     KeyFile(file).write(keys)

@@ -70,8 +70,8 @@ class _Task:
         self.fetched: dict[int, Item] = {}
         self.gathering: Gathering | None = None
         self.fetches = 0
-        self.words = ""
-        """Of a refusal."""
+        self.words: dict[str, None] = {}
+        """Of a refusal, each reason once."""
         self.is_accepted = False
 
 
@@ -142,7 +142,7 @@ class WaypointClient:
         elif name in ("MISSION_REQUEST_INT", "MISSION_REQUEST"):
             self._take_request(task, received, t)
         elif name == "WAYPOINTS_REFUSED" and task.step in (_Step.OFFER, _Step.SERVE, _Step.END):
-            task.words = str(values["words"])
+            task.words[str(values["words"])] = None
         elif name == "MISSION_ACK" and task.step in (_Step.OFFER, _Step.SERVE, _Step.END):
             self._take_end(task, int(values["type"]), t)  # type: ignore[arg-type]
         elif name == "MISSION_ITEM_INT" and task.step is _Step.FETCH:
@@ -189,7 +189,7 @@ class WaypointClient:
             task.is_accepted = True
             self._go(task, _Step.COMPARE, t)
         elif task.words or result not in MissionResult.__members__.values():
-            self._end(Ending.REFUSED, task.words or f"the vehicle refuses it, result {result}")
+            self._end(Ending.REFUSED, "; ".join(task.words) or f"the vehicle refuses it, result {result}")
         else:
             self._end(Ending.REFUSED, f"the vehicle refuses it: {MissionResult(result).name.lower().replace('_', ' ')}")
 

@@ -15,7 +15,7 @@ from stommel.link.missions.items import (
     plan_of,
     refusal_of,
 )
-from stommel.link.missions.port import WaypointPort, WaypointProgress
+from stommel.link.missions.port import WaypointPort, WaypointProgress, WaypointRefusal
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.question import Pace, Question
 from stommel.link.service import Received, is_for
@@ -150,14 +150,13 @@ class WaypointServer:
             self._end(received, t, plan, _WHOLE)
             return
         refusals = self._port.take_plan(plan)
-        for number, refusal in enumerate(refusals):
-            words = refusal.words if refusal.item is None else f"item {refusal.item}: {refusal.words}"
-            item = _WHOLE if refusal.item is None else refusal.item
-            if number == 0:
-                self._end(received, t, ItemRefusal(MissionResult.INVALID, words), item)
-            else:
-                self._tell(received, MissionResult.INVALID, words, item)
-        if not refusals:
+        told = [_as_item(refusal) for refusal in refusals]
+        for item, words in told[1:]:
+            self._tell(received, MissionResult.INVALID, words, item)
+        if told:
+            item, words = told[0]
+            self._end(received, t, ItemRefusal(MissionResult.INVALID, words), item)
+        else:
             self._end(received, t)
 
     def _end(self, received: Received, t: float, refusal: ItemRefusal | None = None, item: int = _WHOLE) -> None:
@@ -261,3 +260,8 @@ class WaypointServer:
         total = 0xFFFF if plan is None else len(plan.waypoints)
         told: Fields = {"seq": progress.current or 0, "total": total, "mission_state": progress.state}
         outbox.put(Priority.STATE, "MISSION_CURRENT", told)
+
+
+def _as_item(refusal: WaypointRefusal) -> tuple[int, str]:
+    """Number of the item and words of a refusal."""
+    return (_WHOLE, refusal.words) if refusal.item is None else (refusal.item, f"item {refusal.item}: {refusal.words}")

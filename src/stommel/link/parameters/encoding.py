@@ -138,6 +138,15 @@ def description_fields(number: int, described: Description) -> Fields:
     }  # fmt: skip
 
 
+def value_fields(each: ParameterSet, number: int, value: Value) -> Fields:
+    """Fields of PARAM_VALUE, with the number in the set."""
+    described = each.descriptions[number]
+    return {
+        "param_id": described.id, "param_value": float_of(described.kind, value), "param_type": int(described.kind),
+        "param_count": len(each.descriptions), "param_index": number,
+    }  # fmt: skip
+
+
 def descriptions_digest(descriptions: Sequence[Description]) -> bytes:
     """Digest of all descriptions of a component."""
     message = message_named("PARAMETER_DESCRIPTION")

@@ -63,6 +63,22 @@ class ParameterSet(NamedTuple):
     values: tuple[Value | None, ...]
     """In the order of the descriptions; None for what is not known."""
 
+    @property
+    def is_silent(self) -> bool:
+        """Whether the component does not answer."""
+        return self.state is ParameterState.SILENT
+
+    @property
+    def is_being_read(self) -> bool:
+        """Whether some of its values will be known soon."""
+        return self.state is not ParameterState.SILENT and (
+            self.state is ParameterState.BEING_READ or None in self.values
+        )
+
+    def number(self, parameter: str) -> int | None:
+        """Return the number of a parameter; None if there is none of this name."""
+        return next((number for number, each in enumerate(self.descriptions) if each.id == parameter), None)
+
 
 class WriteOutcome(NamedTuple):
     """What became of a value that was to be set."""

@@ -15,7 +15,7 @@ from stommel.link.parameters.encoding import (
     description_fields,
     descriptions_digest,
     fitting,
-    float_of,
+    value_fields,
     value_of,
     values_digest,
 )
@@ -35,8 +35,6 @@ from stommel.messages.mavlink import Fields
 _BACKLOG = 600
 """Bytes that may wait in the outbox when a stream goes on: what waits there long is old when it arrives."""
 _MOST_WRITES, _MOST_ANSWERS = 64, 64
-_UNKNOWN = 0xFFFF
-"""Number of a parameter that does not exist."""
 
 
 class _Asked(NamedTuple):
@@ -113,7 +111,7 @@ class ParameterServer:
     def _list(self, received: Received) -> None:
         """A node that is silent does not answer, as any component that is dead."""
         for each in self._meant(received):
-            if not _is_silent(each) and each.descriptions:
+            if not each.is_silent and each.descriptions:
                 going = self._streams.get(each.component, {})
                 # what has been said already comes again behind the rest
                 self._streams[each.component] = going | dict.fromkeys(range(len(each.descriptions)))
@@ -122,10 +120,10 @@ class ParameterServer:
         index, name = received.values["param_index"], fitted(str(received.values["param_id"]), LONGEST_ID)
         sets = self._meant(received)
         for each in sets:
-            number = _number(each, name) if index == -1 else int(index)  # type: ignore[arg-type]
+            number = each.number(name) if index == -1 else int(index)  # type: ignore[arg-type]
             if number is None or not 0 <= number < len(each.descriptions):
                 continue
-            if _is_silent(each) or each.values[number] is None:
+            if each.is_silent or each.values[number] is None:
                 self._error(received, each.component, number, each.descriptions[number].id, WriteError.SILENT)
             else:
                 self._singles[each.component, number] = None
@@ -173,7 +171,7 @@ class ParameterServer:
 
     def _begin(self, received: Received, asked: _Asked) -> None:
         """Hand a value to the port, or refuse it."""
-        sets = [(each, _number(each, asked.parameter)) for each in self._meant(received)]
+        sets = [(each, each.number(asked.parameter)) for each in self._meant(received)]
         each, number = next((found for found in sets if found[1] is not None), (None, None))
         if each is None or number is None:
             words = f"{asked.parameter}: there is no such parameter"
@@ -191,7 +189,7 @@ class ParameterServer:
     def _acceptable(self, each: ParameterSet, number: int, value: Value) -> Value:
         """Return a value as the port takes it."""
         described = each.descriptions[number]
-        if _is_silent(each):
+        if each.is_silent:
             raise ParameterError(f"{described.id}: the {each.name} is silent", WriteError.SILENT)
         if len(self._writes) >= _MOST_WRITES:
             raise ParameterError(f"{described.id}: {_MOST_WRITES} writings are under way", WriteError.DENIED)
@@ -199,13 +197,13 @@ class ParameterServer:
 
     def _refuse(self, asked: _Asked, error: ParameterError) -> None:
         each, number = self._found(asked)
-        value = None if each is None or number is None or _is_silent(each) else each.values[number]
+        value = None if each is None or number is None or each.is_silent else each.values[number]
         self._ended(asked, WriteOutcome(0, error.error, value, str(error)))
 
     def _found(self, asked: _Asked) -> tuple[ParameterSet | None, int | None]:
         for each in self._port.sets():
             if each.component == asked.component:
-                return each, _number(each, asked.parameter)
+                return each, each.number(asked.parameter)
         return None, None
 
     def _ended(self, asked: _Asked, outcome: WriteOutcome) -> None:
@@ -228,7 +226,7 @@ class ParameterServer:
         elif outcome.error is not WriteError.NONE:
             index = -1 if number is None else number
             self._error(Received(*asked.sender, "", {}), component, index, asked.parameter, outcome.error)
-        if each is not None and number is not None and not _is_silent(each):
+        if each is not None and number is not None and not each.is_silent:
             self._singles[each.component, number] = None
 
     # what is said
@@ -272,20 +270,22 @@ class ParameterServer:
             outbox.put(Priority.DATA, "PARAMETER_DESCRIPTION", fields, component)
             return
         for component, numbers in list(self._streams.items()):
-            if sets[component].state is ParameterState.BEING_READ:
+            each = sets[component]
+            if each.is_being_read:
                 continue
-            if sets[component].state is ParameterState.KNOWN:
+            if not each.is_silent:
                 number = next(iter(numbers))
                 del numbers[number]
-                _say(sets[component], number, Priority.DATA, outbox)
-            if not numbers or sets[component].state is ParameterState.SILENT:
+                _say(each, number, Priority.DATA, outbox)
+            if not numbers or each.is_silent:
                 del self._streams[component]
             return
 
     def _short(self, sets: Sequence[ParameterSet], component: int) -> Fields:
         number, each = next((number, each) for number, each in enumerate(sets) if each.component == component)
+        state = ParameterState.BEING_READ if each.is_being_read else each.state
         return {
-            "count": len(each.descriptions), "set_number": number, "set_count": len(sets), "state": int(each.state),
+            "count": len(each.descriptions), "set_number": number, "set_count": len(sets), "state": int(state),
             "descriptions": self._descriptions_digests[component],
             "values": values_digest(each.descriptions, each.values), "name": each.name,
         }  # fmt: skip
@@ -297,21 +297,8 @@ def _asked(received: Received, session: int, number: int, value: Value) -> _Aske
     return _Asked(sender, session, number, component, fitted(str(values["param_id"]), LONGEST_ID), value)
 
 
-def _is_silent(each: ParameterSet) -> bool:
-    return each.state is ParameterState.SILENT
-
-
-def _number(each: ParameterSet, name: str) -> int | None:
-    return next((number for number, described in enumerate(each.descriptions) if described.id == name), None)
-
-
 def _say(each: ParameterSet, number: int, priority: Priority, outbox: Outbox) -> None:
     """PARAM_VALUE, if the value is known."""
-    described, value = each.descriptions[number], each.values[number]
-    if value is None:
-        return
-    told: Fields = {
-        "param_id": described.id, "param_value": float_of(described.kind, value), "param_type": int(described.kind),
-        "param_count": len(each.descriptions), "param_index": number,
-    }  # fmt: skip
-    outbox.put(priority, "PARAM_VALUE", told, each.component)
+    value = each.values[number]
+    if value is not None:
+        outbox.put(priority, "PARAM_VALUE", value_fields(each, number, value), each.component)

@@ -264,7 +264,6 @@ class Guard:
             self._clocks.pop(stream, None)
         elif refusal is Refusal.UNPROVED and name == "KEY_CHALLENGE_ANSWER" and self._is_answer(frame.payload):
             stamps.prove(stream, stamp, t)
-            self.question = b""
             return None
         elif refusal in (Refusal.STALE, Refusal.FAR_FUTURE) and len(self._clocks) < MOST_STREAMS:
             self._clocks[stream] = stamps.offset(stamp, t)

@@ -6,14 +6,15 @@ from stommel.control.commands import Commands
 from stommel.control.dive_cycle import SURFACE
 from stommel.control.orders import Orders
 from stommel.messages.codec import Encoder
-from stommel.messages.database import COORDINATOR, value_named
+from stommel.messages.database import COORDINATOR, MOTION, value_named
 from stommel.messages.frames import Frame
 from stommel.messages.nodes import HeartbeatSender, NodeState
 from stommel.onboard.coordination.assessment import Inside, situation_of
 from stommel.onboard.coordination.deciding import Decide, Pilot
-from stommel.onboard.coordination.executive import Executive, ExecutiveState, State
+from stommel.onboard.coordination.engine_proof import EngineProof, Oil
+from stommel.onboard.coordination.executive import FLOWN, Executive, ExecutiveState, State
 from stommel.onboard.coordination.executive_commands import commands as commands_of
-from stommel.onboard.coordination.health import ALTIMETER, CTD, GPS, RADIO, SOURCES, Health, HealthMonitor
+from stommel.onboard.coordination.health import CTD, GPS, RADIO, Health
 from stommel.onboard.coordination.logbook.logbook import Logbook
 from stommel.onboard.coordination.navigation import NavigationEstimate, Navigator
 from stommel.onboard.coordination.node_parameters import NodeParameters
@@ -25,14 +26,12 @@ from stommel.onboard.coordination.recording import Recorder
 from stommel.onboard.coordination.safety import SafetyMonitor, standing_alarms
 from stommel.onboard.coordination.settings import CoordinatorSettings
 from stommel.onboard.coordination.situation import NO_REQUESTS, OperatorRequests, Situation
-from stommel.onboard.coordination.sources import Periods, Sources, signs_of
+from stommel.onboard.coordination.sources import Periods, Sources
 from stommel.onboard.coordination.stores.continuity import Continuity, ContinuityStore
 from stommel.onboard.coordination.view import View
 
 PROVING_TIME = 45.0
 """Before a dive, in which the drives prove themselves again: a test that finds a dead pump takes half a minute [s]."""
-HEALTH_EVERY = 10.0
-"""Between two looks at the health of a vehicle of which nothing falls silent [s]: counts are no news."""
 CTD_PATIENCE = 10.0
 """Time beyond two intervals without a sample, after which the payload is silent [s]."""
 
@@ -82,6 +81,7 @@ class Coordinator:
         self._heartbeat = HeartbeatSender(COORDINATOR, self._encoder, before.starts, settings.kind)
         self._nodes = NodesControl.of(self._encoder, before.starts)
         self.parameters = NodeParameters(self._encoder, settings.node_parameters)
+        self._proof = EngineProof(settings.actuators.V_b_least, settings.actuators.V_b_greatest)
         self._navigator: Navigator | None = None
         usable = settings.usable_energy
         self._battery = None if usable is None else BatteryAccount(usable, mean_over=settings.mean_power_over)
@@ -91,13 +91,9 @@ class Coordinator:
         """Number of the mission that is flown; 0 for none."""
         self._requests = NO_REQUESTS
         self._was_surfaced = True
-        self._signs: tuple[object, ...] = ()
-        self._sources = Sources(self.perception, self.instruments)
+        self._sources = Sources(self.perception, self.instruments, t, has_altimeter=settings.has_altimeter)
+        self.health = self._sources.monitor
         self._sample_every = settings.schedule.ctd[self.pilot.phase]
-        self.health = HealthMonitor()
-        for name in SOURCES:
-            switched = name in (GPS, CTD, RADIO) or (name == ALTIMETER and not settings.has_altimeter)
-            self.health.switch(name, not switched, t)
 
     def request(self, requests: OperatorRequests) -> None:
         """Ask for something, at the next decision, beside what was asked before it."""
@@ -178,7 +174,7 @@ class Coordinator:
         safety = self.safety.update(situation, clear=requests.clear)
         state = self.executive.update(situation, safety, requests)
         control = pilot.step(readings, state, t, self._sleeper.elapsed)
-        commands = commands_of(state, control, self.settings.actuators)
+        commands = self._floats_until_proven(t, state, commands_of(state, control, self.settings.actuators))
         health = self._look_after(situation, t)
         outcomes = self.parameters.outcomes()
         self.view = view = View(
@@ -187,16 +183,20 @@ class Coordinator:
         self.recorder.decided(view, pilot, readings, self._nodes.outcomes(), seen)
         return view
 
+    def _floats_until_proven(self, t: float, state: ExecutiveState, commands: Commands) -> Commands:
+        """Hold a descent where the vehicle still floats until the engine has proved itself there."""
+        seen, pilot = self.perception, self.pilot
+        if state.state not in FLOWN or pilot.orders is None:
+            return commands
+        stuck = seen.watch.reports(MOTION, "ValveStuck") or seen.watch.reports(MOTION, "PumpStuck")
+        oil = Oil(seen.value("MotionStatus", "ballast"), seen.heard.get("MotionStatus", float("-inf")), stuck)
+        V_b = self._proof.allowed(t, pilot.phase, commands.V_b, pilot.orders.dives.V_b_climb, oil)
+        return commands if V_b == commands.V_b else commands._replace(V_b=V_b)
+
     def _look_after(self, situation: Situation, t: float) -> Health:
-        """Say of each node and instrument how it does: at once where one falls silent, else now and then."""
-        health, own, last = self.health, self.instruments, self.view
-        signs = (signs_of(situation), health.since(RADIO), health.since(CTD))
-        if last is not None and signs == self._signs and 0.0 <= t - last.health.t < HEALTH_EVERY:
-            return last.health
-        self._signs = signs
-        periods = Periods(own.compass_every(self.pilot.phase), self.settings.gnss.interval, self._sample_every)
-        told = self._sources.told(situation, periods, health.since(RADIO), t)
-        return health.snapshot(t, told, self.perception.watch.strangers)
+        """Say of each node and instrument how it does."""
+        compass_every = self.instruments.compass_every(self.pilot.phase)
+        return self._sources.look(situation, Periods(compass_every, self.settings.gnss.interval, self._sample_every), t)
 
     def _navigate(self, t: float) -> NavigationEstimate | None:
         """Follow how far the position may be wrong."""

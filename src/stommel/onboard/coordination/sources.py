@@ -6,11 +6,13 @@ from typing import NamedTuple
 
 from stommel.messages.codec import Decoder
 from stommel.messages.database import ACQUISITION, MOTION, NODES, database
-from stommel.onboard.coordination.health import Told
+from stommel.onboard.coordination.health import ALTIMETER, CTD, GPS, RADIO, SOURCES, Health, HealthMonitor, Told
 from stommel.onboard.coordination.own_instruments import OwnInstruments
 from stommel.onboard.coordination.perception import Perception
 from stommel.onboard.coordination.situation import Situation
 
+HEALTH_EVERY = 10.0
+"""Between two looks at the health of a vehicle of which nothing falls silent [s]: counts are no news."""
 EACH_SECOND = 1.0
 """Period of heartbeats and of what the nodes tell [s]."""
 RADIO_PERIOD, RADIO_PERIODS = 60.0, 5
@@ -37,7 +39,7 @@ def messages_of(node: int) -> tuple[tuple[str, int], ...]:
 
 
 class Sources:
-    """Collects it once a decision.
+    """Collects it, and keeps the last look at everybody's health.
 
     Parameters
     ----------
@@ -45,15 +47,36 @@ class Sources:
         By the coordinator.
     own
         Instruments at its own ports.
+    t
+        Time at which it begins [s].
+    has_altimeter
+        Whether one is fitted.
     """
 
-    def __init__(self, seen: Perception, own: OwnInstruments) -> None:
+    def __init__(self, seen: Perception, own: OwnInstruments, t: float, *, has_altimeter: bool) -> None:
+        self.monitor = HealthMonitor()
+        for name in SOURCES:
+            waits = name in (GPS, CTD, RADIO) or (name == ALTIMETER and not has_altimeter)
+            self.monitor.switch(name, not waits, t)
+        self._last: Health | None = None
+        self._signs: tuple[object, ...] = ()
         self._seen, self._compass, self._gnss, self._radio = seen, own.compass, own.gnss, own.radio
         self._nodes = {node: messages_of(node) for node in (MOTION, ACQUISITION)}
         by_name = dict(self._nodes[ACQUISITION])
         self._depth, self._battery, self._ctd = (
             ((name, by_name[name]),) for name in ("Depth", "Battery", "CtdSample")
         )  # fmt: skip
+
+    def look(self, now: Situation, periods: Periods, t: float) -> Health:
+        """Say how everybody does at a time [s]: at once where one falls silent or has power, else now and then."""
+        since, last = self.monitor.since, self._last
+        signs = (signs_of(now), since(RADIO), since(CTD))
+        if last is not None and signs == self._signs and 0.0 <= t - last.t < HEALTH_EVERY:
+            return last
+        self._signs = signs
+        told = self.told(now, periods, since(RADIO), t)
+        self._last = self.monitor.snapshot(t, told, self._seen.watch.strangers)
+        return self._last
 
     def told(self, now: Situation, periods: Periods, radio_since: float, t: float) -> tuple[Told, ...]:
         """Return what is known at a time [s], in the order of `SOURCES`.

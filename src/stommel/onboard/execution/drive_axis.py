@@ -14,6 +14,9 @@ PLAUSIBLE = 0.25
 """Part of the way by which a reading may lie beyond an end; farther off it is an error value."""
 BLIND = 1.5
 """Part of the whole way's time for which a drive runs towards its end without a sensor."""
+SLIPS, SLIPS_WITHIN = 0.1, 10.0
+"""Share of the time for which a drive that is at its set point works upwards only to stay there, above which what it
+moves slips away; and the time over which the share is taken [s]."""
 PATIENT, RARELY = 5.0, 150.0
 """Longest pauses in the last reaction [s]: at first, and once a drive has run for as long as its whole way takes and
 was never seen to follow."""
@@ -100,6 +103,8 @@ class Axis:
     """A motor took too much and was stopped; until it runs again without."""
     crept: float = 0.0
     """Way that it went to keep a set point that it had reached, both directions added."""
+    slips: bool = False
+    """Whether it slips away from set points that it has reached, until failures are cleared."""
     up: Effort = field(default_factory=Effort)
     down: Effort = field(default_factory=Effort)
     _t: float = nan
@@ -111,6 +116,8 @@ class Axis:
     """Set point that was reached last."""
     _keeps: float = 0.0
     """Speed at which the drive runs to keep the set point; zero while it runs towards a new one."""
+    _keeping: float = 0.0
+    """Share of the time for which it worked upwards to keep a set point, smoothed."""
     _current_untrue: bool = False
     """Whether the current was too high although the motor did not run: the last reaction then does without it."""
 
@@ -130,7 +137,7 @@ class Axis:
 
     def clear(self) -> None:
         """Forget failures, as told."""
-        self.over_current = False
+        self.over_current, self.slips, self._keeping = False, False, 0.0
         for effort in (self.up, self.down):
             effort.tries, effort.failed_at, effort.blind = 0, -inf, 0.0
             effort.watched = effort.followed = 0.0
@@ -144,8 +151,10 @@ class Axis:
         before, self.reading = self.reading, reading
         if t == self._t:
             return
-        ran = 0.0 if isnan(self._t) else min(t - self._t, abs(self.share) * self._interval)
+        passed = 0.0 if isnan(self._t) else t - self._t
+        ran = min(passed, abs(self.share) * self._interval)
         self._t, self._moved_before = t, self._moving
+        self._watch_slipping(passed, ran)
         self._watch_current(t, current, ran > 0.0)
         if ran > 0.0:
             self.crept += ran * self._keeps
@@ -172,6 +181,8 @@ class Axis:
         if abs(missing) <= (STOPS_WITHIN * limits.tolerance if goes_on else limits.tolerance):
             self._held = goal
             return 0.0
+        if self._moved_before * missing < 0.0:
+            self._held = goal  # it was there, and went past
         self._moving = copysign(1.0, missing)
         effort, may, fastest = (
             (self.up, may_up, limits.fastest_up) if missing > 0.0 else (self.down, may_down, limits.fastest_down)
@@ -211,6 +222,14 @@ class Axis:
         effort.blind = 0.0
         if not isnan(before) and effort.learn(ran, direction * (self.reading - before), expected, self.limits):
             effort.fail(t)
+
+    def _watch_slipping(self, passed: float, ran: float) -> None:
+        """Take for how long of the time that passed it worked upwards to keep a set point [s]."""
+        if not passed > 0.0:
+            return
+        share = ran / passed if self._keeps > 0.0 and self.share > 0.0 else 0.0
+        self._keeping += min(1.0, passed / SLIPS_WITHIN) * (share - self._keeping)
+        self.slips = self.slips or self._keeping > SLIPS
 
     def _watch_current(self, t: float, current: float, running: bool) -> None:
         too_much = bool(current > self.limits.current)  # NumPy's own truth is no number for a frame

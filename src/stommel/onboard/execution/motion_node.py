@@ -9,7 +9,7 @@ from stommel.messages.database import MOTION
 from stommel.messages.frames import Frame
 from stommel.messages.nodes import UNSTATED, NodeKind
 from stommel.messages.parameters import ParameterStore, ParameterType, to_bits
-from stommel.onboard.execution.exercise import Exercise
+from stommel.onboard.execution.exercise import OIL_STILL, Exercise
 from stommel.onboard.execution.motion_drives import MotionDrives
 from stommel.onboard.execution.motion_io import AT_REST, DriveOutputs, MotionReadings
 from stommel.onboard.execution.node_link import NodeLink
@@ -199,6 +199,7 @@ class MotionNode:
             (NO_STEERING, not drives.steering.measured),
             (BROKEN_SWITCH, drives.switches.broken or (readings.limit_fore and readings.limit_aft)),
             (CURRENT_AT_REST, any(axis.over_current for axis in (drives.engine, drives.mass, drives.steering))),
+            (OIL_STILL, drives.engine.slips),
             (STUCK, any(axis.stuck for axis in (drives.engine, drives.mass, drives.steering))),
         ]
         return sum(bit for bit, wrong in found if wrong)
@@ -212,7 +213,7 @@ class MotionNode:
         drives, report = self.drives, self.link.report
         engine, mass, steering = drives.engine, drives.mass, drives.steering
         report("PumpStuck", active=engine.given_up(engine.up))
-        report("ValveStuck", active=engine.given_up(engine.down))
+        report("ValveStuck", active=engine.given_up(engine.down) or engine.slips, detail=int(engine.slips))
         report("MassStuck", active=mass.stuck)
         report("SteeringStuck", active=steering.stuck)
         hot = engine.over_current + 2 * mass.over_current + 4 * steering.over_current

@@ -53,7 +53,6 @@ class MissionPort:
         self._open_store, self._flown = store, flown
         self.opened: MissionStore | None = None
         """The store, once anybody has asked for missions."""
-        self._announced = b""
 
     @property
     def _store(self) -> MissionStore:
@@ -74,11 +73,11 @@ class MissionPort:
     def announce(self, size: int, sha256: bytes) -> None:
         """Begin to receive a file; the same one again goes on where it was."""
         self._store.announce(size, sha256.hex())
-        self._announced = sha256
 
     def announced(self) -> bytes:
-        """SHA-256 of the file that is being received, since it was announced to this software."""
-        return self._announced
+        """SHA-256 of the file that is being received, also after a restart; empty for none."""
+        announced = self._store.announced
+        return b"" if announced is None else bytes.fromhex(announced[1])
 
     def take_piece(self, offset: int, piece: bytes) -> None:
         """Take some bytes of the file that is being received."""
@@ -96,7 +95,6 @@ class MissionPort:
         """Hold the file that was received, after the same check."""
         self._allow()
         self._store.switch()
-        self._announced = b""
 
     def roll_back(self) -> None:
         """Hold the orders before again."""
@@ -166,7 +164,6 @@ class MissionPort:
             self._allow()
             text = orders_text(with_waypoints(active.orders, plan), active.header, "mission").encode()
             self._store.announce(len(text), hashlib.sha256(text).hexdigest())
-            self._announced = b""
             self._store.take(0, text)
             self._store.switch()
         except FileError as error:

@@ -7,14 +7,14 @@ from typing import NamedTuple
 from stommel.control.dive_cycle import SURFACE
 from stommel.geometry.earth import to_waypoint
 from stommel.link.outbox import Priority
-from stommel.messages.mavlink import Fields
+from stommel.messages.mavlink import Fields, entry_words
 from stommel.onboard.coordination.executive import State
-from stommel.onboard.coordination.failsafes import FAILSAFES, Reaction
+from stommel.onboard.coordination.failsafes import Reaction
 from stommel.onboard.radio.observed import Observed
 
 STATES = tuple(State)
 """States of the executive by their numbers on the air."""
-_ALARM_BITS = {row.name: 1 << k for k, row in enumerate(FAILSAFES)}
+_ALARM_BITS = {words: bit for bit, words in entry_words("GLIDER_ALARM").items()}
 _UNKNOWN_16, _UNKNOWN_U16 = 0x7FFF, 0xFFFF
 
 ARMED, CUSTOM_MODE = 128, 1
@@ -174,7 +174,7 @@ def surface_time_left(seen: Observed) -> float:
 def _glider_state(seen: Observed) -> Fields:
     view, memory = seen.view, seen.memory
     readings = view.situation.readings
-    alarms = sum(_ALARM_BITS[alarm.name] for alarm in view.safety.active)
+    alarms = sum(_ALARM_BITS.get(alarm.name, 0) for alarm in view.safety.active)
     return {
         "time_boot_ms": boot_ms(seen.t),
         "phase": view.executive.phase,

@@ -95,7 +95,7 @@ class VehicleLink:
         self.presence, self.time_sync = Presence(), TimeSync(utc)
         self.telemetry, self._reports = Telemetry(), DiveReports()
         port = VehicleCommands(coordinator, missions, restart)
-        self.commands = CommandServer(*me, port, ShoreClock(self.time_sync, utc), storage)
+        self.commands = CommandServer(*me, port, ShoreClock(self.time_sync), storage)
         self.statistics = Statistics(
             self.session, self.time_sync, surface_time_left=self._surface_time_left, refusals=guard.refusals
         )

@@ -4,15 +4,16 @@ import hashlib
 import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from math import inf
+from math import inf, sin
 
 import numpy as np
 
 from stommel.errors import StommelError
 from stommel.messages.database import COORDINATOR
+from stommel.onboard.coordination.engine_proof import STROKES
 from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.setup import Setup
-from stommel.sitl.campaign.survival import Means, Struck, takes_buoyancy, unsurvivable
+from stommel.sitl.campaign.survival import Means, Profile, Struck, is_hidden, takes_buoyancy, unsurvivable
 from stommel.sitl.campaign.verdict import (
     FAILED,
     PASSED,
@@ -30,6 +31,8 @@ from stommel.sitl.system import System
 
 EXPIRY_BEFORE_END = 1800.0
 """How long before the flight's end the mission's time is over [s]: a vehicle with nothing broken is up by then."""
+_DEEPEST = 6000.0
+"""Deepest water that a vehicle whose file states no rating is followed to [m]."""
 _WATER = 1025.0
 """Density of the water that a dropped weight is counted in [kg/m3]."""
 
@@ -52,6 +55,7 @@ class FaultFlight:
         self.system = System(self.mission, inject=self.inject, expires=self.expires)
         self.watch = Watch(self.system)
         self.struck: list[Struck] = []
+        self._sinks = 0.0
         self._strikes = sorted({fault.at for fault in self.faults if takes_buoyancy(fault)})
 
     def fly(self) -> Verdict:
@@ -74,11 +78,33 @@ class FaultFlight:
         plant = self.system.plant
         while self._strikes and plant.time >= self._strikes[0]:
             self._strikes.pop(0)
-            # the column of water is looked up by the first step
-            spare = plant.spare(0.0) if plant.tick else plant.oil
-            self.struck.append(Struck(plant.time, plant.depth, plant.oil, spare))
+            self.struck.append(self._struck())
+        t, before, oil = plant.time, plant.depth, plant.oil
         self.system.step()
+        self._sinks = (plant.depth - before) / plant.step
+        if self.struck and self.struck[-1].t == t and self._is_unseen(t, oil):
+            self.struck[-1] = self.struck[-1]._replace(runs_in_to=plant.setup.orders.dives.V_b_dive)
         self.watch.look()
+
+    def _is_unseen(self, t: float, oil: float) -> bool:
+        """Whether what struck in the step at a time [s], with so much oil outside [m3], tells itself only later.
+
+        So it is while the valve is open, after a proof where the climb's ballast is outside.
+        """
+        setup = self.system.plant.setup
+        engine = setup.equipment.plant.engine
+        proven = oil <= setup.orders.dives.V_b_climb + (engine.high - engine.low) / STROKES
+        return proven and self.system.outputs.valve > 0.0 and is_hidden(self.faults, t)
+
+    def _struck(self) -> Struck:
+        """What a pilot finds as a fault strikes."""
+        plant = self.system.plant
+        if not plant.tick:  # the column of water is looked up by the first step
+            return Struck(plant.time, plant.depth, plant.oil, plant.oil)
+        spare = plant.spare(0.0)
+        depths = np.linspace(0.0, min(_DEEPEST, plant.setup.equipment.hull.deepest), 41)
+        lighter = Profile(depths, np.array([plant.spare(depth) - spare for depth in depths]))
+        return Struck(plant.time, plant.depth, plant.oil, spare, self._sinks, lighter)
 
     def verdict(self) -> Verdict:
         """What became of it."""
@@ -114,6 +140,7 @@ def means_of(setup: Setup) -> Means:
         ends=setup.ticks * setup.loop.control_step,
         sink_speed=0.25,
         speed_volume=abs(dives.V_b_dive),
+        settling_way=sin(dives.theta) / setup.orders.table.drag_per_mass,
     )
 
 

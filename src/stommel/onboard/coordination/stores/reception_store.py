@@ -96,7 +96,7 @@ class ReceptionStore:
             return reception.whole()
         except ReceptionError:
             if were_there:
-                self._begin(forgetting=True)
+                self._begin()
             raise
 
     def expected(self) -> Reception:
@@ -118,12 +118,10 @@ class ReceptionStore:
         self._remove_others(keep=None)
         self.written = True
 
-    def _begin(self, forgetting: bool = False) -> None:
-        """Write a new file with all that is there, and remove the others: after it, or before if they must not add."""
+    def _begin(self) -> None:
+        """Write a new file with all that is there, then remove the others."""
         reception = self.expected()
         self._leave()
-        if forgetting:
-            self._remove_others(keep=None)
         size, sha256 = _announced(reception)
         content = announcement(size, sha256) + b"".join(piece(size, sha256, *run) for run in reception.held)
         self._number += 1

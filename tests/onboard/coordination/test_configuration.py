@@ -143,12 +143,6 @@ def test_units_of_the_file_become_si(tmp_path: Path) -> None:
     assert found.actuators.r_px_surface == 0.49
 
 
-def test_a_slow_compass_may_be_quiet_for_longer(tmp_path: Path) -> None:
-    changed = CONFIGURATION.replace('port = "/dev/a"', 'port = "/dev/a"\ninterval_s = 10.0')
-    found = read_configuration(written(tmp_path, changed)).compass
-    assert (found.interval, found.silence, found.polled) == (10.0, 25.0, False)
-
-
 def test_calibration_of_the_compass_is_read(tmp_path: Path) -> None:
     named = CONFIGURATION.replace('port = "/dev/a"', 'port = "/dev/a"\ncalibration = "compass.toml"')
     path = written(tmp_path, named)

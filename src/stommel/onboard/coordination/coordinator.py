@@ -34,8 +34,6 @@ PROVING_TIME = 45.0
 """Before a dive, in which the drives prove themselves again: a test that finds a dead pump takes half a minute [s]."""
 CTD_PATIENCE = 10.0
 """Time beyond two intervals without a sample, after which the payload is silent [s]."""
-
-
 LATEST_TIME = 1e9
 """The greatest time that Sync can say [s]."""
 

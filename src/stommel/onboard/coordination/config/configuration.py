@@ -24,8 +24,6 @@ from stommel.onboard.coordination.power import PowerSchedule
 from stommel.onboard.coordination.settings import CoordinatorSettings
 
 _MIB = 1 << 20
-_PERIODS_OF_SILENCE = 2.5
-"""Of a compass that measures slowly, after which it is set up anew."""
 
 
 @dataclass(frozen=True)
@@ -105,9 +103,7 @@ class Configuration:
     @property
     def compass(self) -> CompassSettings:
         """How the compass is to measure; one that sends by itself cannot rest."""
-        every = self.file.compass.interval_s
-        silence = max(CompassSettings.silence, _PERIODS_OF_SILENCE * every)
-        return CompassSettings(interval=every, polled=any(self.schedule.compass_rests), silence=silence)
+        return CompassSettings(interval=self.file.compass.interval_s, polled=any(self.schedule.compass_rests))
 
     @property
     def node_parameters(self) -> Wanted:

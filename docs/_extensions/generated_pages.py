@@ -18,8 +18,10 @@ from types import ModuleType
 from typing import Any, Literal, get_args, get_origin
 
 import can_tables
+import command_tables
 import dive_cycle
 import fault_tables
+import link_tables
 import log_tables
 import node_tables
 import vehicle_software
@@ -36,7 +38,7 @@ from stommel.files.sentences import allowed_range
 from stommel.files.table_keys import models_in
 from stommel.files.units import unit_of
 from stommel.onboard.coordination.compass.calibration_file import CalibrationFile
-from stommel.onboard.coordination.config.tables import ConfigurationFile
+from stommel.onboard.coordination.config.configuration_file import ConfigurationFile
 from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
 from stommel.onboard.execution.motion_settings import MotionSettings
 from stommel.simulation.scenario.scenario_file import ScenarioFile
@@ -214,8 +216,12 @@ def write_pages(app: Sphinx) -> None:
     )
     _write(folder / "validation.md", validation_report())
     _write(folder / "can-messages.md", "".join(can_tables.can_tables()))
+    _write(folder / "link-messages.md", "".join(link_tables.link_tables()))
     _write(folder / "log-records.md", "".join(log_tables.log_tables()))
     _write(folder / "faults.md", "".join(fault_tables.fault_tables()))
+    _write(folder / "link-commands.md", "".join(command_tables.command_table()))
+    _write(folder / "link-command-times.md", "".join(command_tables.time_table()))
+    _write(folder / "link-command-states.md", "".join(command_tables.state_table()))
     _write(folder / "dive-cycle.md", "".join(dive_cycle.transition_table()))
     _write(folder / "dive-cycle.svg", dive_cycle.diagram())
     _write(folder / "executive.md", "".join(vehicle_software.executive_table()))

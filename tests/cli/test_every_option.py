@@ -314,6 +314,10 @@ CASES: dict[str, dict[str, Case]] = {
                    "--name temperature_c=odd_temperature_c", {"sample.temperature_c": CHANGED}),
         "--plot": ("east_china_sea", *PLOT),
     },
+    "link key new": {
+        "--vehicle": ("a.key --force", "--vehicle 9", {"vehicle": 9}),
+        "--force": ("old.key", "--force", {"written": ["old.key"]}),
+    },
     "can dump": {
         "--interface": ("--seconds 0.1", "--interface virtual", {"interface": "virtual", "channel": "vehicle"}),
         "--channel": ("--interface virtual --seconds 0.1", "--channel bench", {"channel": "bench"}),
@@ -353,6 +357,7 @@ BASES_THAT_ARE_REFUSED = {
     ("vehicle config", "--output"), ("vehicle config", "--force"), ("vehicle calibrate-compass", "--force"),
     ("bench generate", "--output"), ("bench analyse", "--map"), ("bench fit", "--map"),
     ("can dump", "--interface"), ("can send", "--interface"),
+    ("link key new", "--force"),
 }  # fmt: skip
 """Without the option there is no answer at all."""
 
@@ -370,6 +375,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (path / "thick.toml").write_text(thick)
     (path / "fixed.toml").write_text(builtin_text("zju").replace("trim_weight = true\n", ""))
     (path / "old.toml").write_text("in the way")
+    (path / "old.key").write_text("in the way")
     state = {"velocity_m_s": [0.3, 0.0, 0.01], "angular_velocity_rad_s": [0.0, 0.1, 0.0],
              "attitude_deg": [0.0, -30.0, 0.0], "moving_mass_position_m": 0.4, "ballast_volume_m3": -1e-4}  # fmt: skip
     (path / "states.json").write_text(json.dumps([state]))

@@ -72,8 +72,11 @@ WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
     "bench fit": (("bench", "fit", "bench.csv", "--plots", "p"), both("p", "fit", "fit-curves")),
     "bench pressure": (("bench", "pressure", "fan2013-table5", "--plot", "t.png"), ["t.png"]),
     "ocean show": (("ocean", "show", "pool", "--plot", "o.png"), ["o.png"]),
+    "link key new": (("link", "key", "new", "new/zju-1.key"), ["new/zju-1.key"]),
 }
 """Every verb that can write, and the files that it then writes."""
+NEW = ("vehicle new", "link key new")
+"""Verbs that are asked for nothing but a file."""
 
 ELSEWHERE = {
     "sitl campaign": "tests/sitl/test_campaign_command: a journal, and what fails",
@@ -89,6 +92,7 @@ SAVE = {
     "--log": (),
     "--ports": (),
     "FILE": (".toml",),
+    "KEYFILE": (".key",),
 }
 SAVE_AS = {
     "design": (".html",),
@@ -121,7 +125,7 @@ def outputs(command: Any, *metavars: str) -> list[str]:
     ]
 
 
-OUTPUTS = [(verb, option) for verb, command in verbs() for option in outputs(command, "FILE", "FOLDER")]
+OUTPUTS = [(verb, option) for verb, command in verbs() for option in outputs(command, "FILE", "FOLDER", "KEYFILE")]
 FOLDERS = {(verb, option) for verb, command in verbs() for option in outputs(command, "FOLDER")}
 
 
@@ -182,10 +186,12 @@ def test_what_was_written_is_listed_and_nothing_else(ask: Ask, folder: Path, ver
         assert (folder / name).stat().st_size > 200
     if verb in ("vehicle new", "budget"):
         (folder / "mine.toml").unlink()
+    if verb == "link key new":
+        (folder / "new" / "zju-1.key").unlink()
     assert ask(*arguments).splitlines()[-len(expected) :] == [f"wrote {name}" for name in expected]
 
 
-@pytest.mark.parametrize("verb", sorted(set(WRITERS) - {"vehicle new", "vehicle config", "bench generate", "study"}))
+@pytest.mark.parametrize("verb", sorted(set(WRITERS) - {*NEW, "vehicle config", "bench generate", "study"}))
 @pytest.mark.usefixtures("logged")
 def test_a_verb_that_wrote_nothing_says_so(ask: Ask, folder: Path, verb: str) -> None:
     arguments, _ = WRITERS[verb]
@@ -199,9 +205,9 @@ def test_a_verb_that_wrote_nothing_says_so(ask: Ask, folder: Path, verb: str) ->
 def refusal(verb: str, option: str, text: str) -> str:
     """What a verb answers to an output, asked about a vehicle, mission or log that does not exist."""
     # the output is looked at first: nothing else would be found wrong before the work begins
-    place = [text] if option == "FILE" else [option, text]
+    place = [text] if option in ("FILE", "KEYFILE") else [option, text]
     required = {"root-locus": list(LOCUS[2:])}.get(verb, [])
-    subject = [] if option == "FILE" else ["there-is-no-such-thing"]
+    subject = [] if option in ("FILE", "KEYFILE") else ["there-is-no-such-thing"]
     with pytest.raises(OutputError) as caught:
         app([*verb.split(), *subject, *required, *place], standalone_mode=False)
     return str(caught.value)

@@ -9,6 +9,7 @@ import pickle
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -133,6 +134,24 @@ def _halve(x: Array, times: int) -> int:
     return times
 
 
+class _Held(NamedTuple):
+    rows: NDArray[np.void]
+    numbers: tuple[Array, str]
+
+
+ROW = np.dtype([("value", "f8"), ("pair", "f8", (2,))])
+
+
+@compiled
+def _halve_within(held: _Held, one: np.record, times: int) -> int:
+    row = held.rows[1]
+    for _ in range(times):
+        row.value = _half(row.value)
+        one.pair[1] = _half(one.pair[1])
+        held.numbers[0][0] = _half(held.numbers[0][0])
+    return times
+
+
 @compiled
 def _inverse(x: float) -> float:
     return 1.0 / x
@@ -141,7 +160,7 @@ def _inverse(x: float) -> float:
 @pytest.fixture
 def untouched(monkeypatch: pytest.MonkeyPatch) -> None:
     """The functions above, as in a process that has compiled none of them."""
-    for function in (_half, _halve, _inverse):
+    for function in (_half, _halve, _halve_within, _inverse):
         monkeypatch.setattr(function, "_call", function._first)  # type: ignore[attr-defined]  # see decorators
 
 
@@ -161,6 +180,19 @@ def test_a_short_question_compiles_nothing_and_a_long_one_begins_anew_in_machine
         assert x[0] == 2.0**-400
         assert not is_plain(_halve)
     assert is_plain(_half)
+
+
+@pytest.mark.usefixtures("untouched")
+@pytest.mark.parametrize("times", [10, 400])
+def test_records_within_tuples_are_read_by_name_and_begin_anew_too(times: int) -> None:
+    """Oracle: powers of two, which are exact; 1200 halvings are a long question."""
+    rows = np.ones(2, ROW)
+    held, one = _Held(rows, (np.ones(1), "")), np.ones(1, ROW).view(np.recarray)[0]
+    with one_question():
+        assert _halve_within(held, one, times) == times
+    assert is_plain(_halve_within) == (times == 10)
+    assert list(rows["value"]) == [1.0, 2.0**-times]
+    assert (one.value, list(one.pair), held.numbers[0][0]) == (1.0, [1.0, 2.0**-times], 2.0**-times)
 
 
 @pytest.mark.usefixtures("untouched")

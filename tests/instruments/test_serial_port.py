@@ -19,9 +19,9 @@ from stommel.instruments.gnss.driver import GnssDriver, GnssSettings
 from stommel.instruments.gnss.fix import Fix
 from stommel.instruments.gpctd.device import CtdDevice, CtdTruth
 from stommel.instruments.gpctd.driver import CtdDriver
-from stommel.instruments.serial_port import PortError, PortSettings, PortState, SerialPort
 from stommel.instruments.tcm.device import CompassDevice, CompassTruth
 from stommel.instruments.tcm.driver import CompassDriver, CompassSettings, CompassState
+from stommel.messages.serial_port import PortError, PortSettings, PortState, SerialPort
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
 LONGEST_WAIT = 20.0

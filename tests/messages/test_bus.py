@@ -3,6 +3,8 @@
 Field report 28 (hardbyte/python-can#907, #1667): an error ended the receiving thread and the program went on deaf.
 """
 
+import os
+import socket
 import subprocess
 import sys
 import time
@@ -275,9 +277,25 @@ def test_buses_at_two_addresses_of_one_machine_do_not_hear_each_other(ours: str,
         assert FRAME not in there.receive()
 
 
-def test_a_bus_over_loopback_survives_bytes_that_are_no_frame() -> None:
-    import socket
+@pytest.mark.parametrize(
+    ("address", "option"),
+    [
+        ("239.74.163.81:43301", (socket.IPPROTO_IP, socket.IP_MULTICAST_TTL)),
+        ("[ff05::4a81]:43302", (socket.IPPROTO_IPV6, socket.IPV6_MULTICAST_HOPS)),
+    ],
+)
+def test_a_bus_that_stays_here_makes_no_hop(address: str, option: tuple[int, int]) -> None:
+    """Oracle: what the system says of the socket."""
+    for stays_here, hops in ((True, 0), (False, 1)):
+        try:
+            bus = open_adapter(Adapter("udp_multicast", address, stays_here=stays_here))
+        except BusError as error:
+            pytest.skip(f"this kernel refuses multicast: {error}")
+        with bus, socket.socket(fileno=os.dup(bus.fileno())) as port:
+            assert port.getsockopt(*option) == hops
 
+
+def test_a_bus_over_loopback_survives_bytes_that_are_no_frame() -> None:
     address = "239.74.163.78"
     try:
         bus = CanBus(Adapter("udp_multicast", address))

@@ -154,6 +154,8 @@ def test_words_of_sending_are_those_of_its_json(stommel: Command) -> None:
         (("decode", "100#0"), "must be ID#DATA, hexadecimal"),
         (("decode", "100#" + "00" * 9), "9 bytes; at most 8 are allowed"),
         (("decode", "800#00"), "the identifier must be between 0 and 7FF"),
+        (("decode", ""), "'': must be ID#DATA, as 100#E803204E0000000C, or the name of a candump log"),
+        (("decode", "702#00", " "), "' ': must be ID#DATA, as 100#E803204E0000000C, or the name of a candump log"),
         (("decode", "nowhere.log"), "nowhere.log: cannot be read: No such file"),
         (("decode", "text.log"), "text.log: cannot be read: it is no candump log: line 1: 'hello': must be (time)"),
         (("dump", "--interface", "vrtual"), "did you mean virtual?"),

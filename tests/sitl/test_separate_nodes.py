@@ -12,7 +12,7 @@ import pytest
 
 from stommel.onboard.coordination.executive import State
 from stommel.sitl import separate_nodes
-from stommel.sitl.multicast import Multicast, works
+from stommel.sitl.multicast import own_bus, works
 from stommel.sitl.real_time import Pace
 from stommel.sitl.separate_nodes import SeparateNodes
 from stommel.sitl.system import System
@@ -95,11 +95,11 @@ def _fail_within(nodes: SeparateNodes) -> None:
 
 def test_over_multicast_the_start_checks_pass() -> None:
     """Frames really go over sockets: without the nodes' own frames the motors would stay unproven."""
-    objection = works(Multicast.own())
+    objection = works(own_bus())
     if objection:
         pytest.skip(objection)
     system, pace = System(mission_of("pool_trial", 60)), Pace(20.0)
-    with SeparateNodes(system, Multicast.own()):
+    with SeparateNodes(system, own_bus()):
         while system.plant.time < 50.0:
             pace.wait(system.plant.time)
             system.step()

@@ -19,6 +19,7 @@ from stommel.cli import (
     envelope,
     flight_table,
     hull,
+    link,
     modes,
     ocean,
     orders,
@@ -86,4 +87,5 @@ app.add_typer(vehicles.vehicle_app, name="vehicle")
 app.add_typer(bench.bench_app, name="bench")
 app.add_typer(ocean.ocean_app, name="ocean")
 app.add_typer(can.can_app, name="can")
+app.add_typer(link.link_app, name="link")
 app.add_typer(sitl.sitl_app, name="sitl")

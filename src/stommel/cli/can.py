@@ -176,9 +176,11 @@ def decode(
 def _frames_in(what: list[str]) -> Iterator[tuple[str, Any]]:
     """Yield each frame with the log that it stands in, or nothing; a sentence for each line of a log that is none."""
     from stommel.files.opening import TABLE_MIB, read_text, unreadable
-    from stommel.messages.spoken import LoggedFrame, frame_of, log_of
+    from stommel.messages.spoken import FrameTextError, LoggedFrame, frame_of, log_of
 
     for text in what:
+        if not text.strip():
+            raise FrameTextError(f"{text!r}: must be ID#DATA, as 100#E803204E0000000C, or the name of a candump log")
         if "#" in text:
             yield "", LoggedFrame(0.0, "", frame_of(text))
             continue

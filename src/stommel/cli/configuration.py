@@ -10,7 +10,7 @@ from stommel.cli.options import ForceOption, JsonOption, VehicleArgument, load
 from stommel.cli.paths import folder_parser, refuse_existing
 
 if TYPE_CHECKING:
-    from stommel.onboard.coordination.config.tables import ConfigurationFile
+    from stommel.onboard.coordination.config.configuration_file import ConfigurationFile
     from stommel.simulation.setup import Setup
     from stommel.vehicle import Vehicle
 
@@ -59,12 +59,15 @@ def _setup(name: str, vehicle: "Vehicle") -> "Setup":
 
 
 def _dive(name: str, vehicle: "Vehicle") -> dict[str, Any]:
+    from stommel.planning.vehicle_limits import depth_rating
+
     description = vehicle.description
     buoyancy, specification = description.actuators.buoyancy, description.specification
-    dives: dict[str, Any] = {"depth_m": _depth(vehicle), "speed_m_s": 0.3}
+    depth = depth_rating(vehicle) or _UNRATED_M
+    dives: dict[str, Any] = {"depth_m": depth, "speed_m_s": 0.3}
     if buoyancy is not None:
         low, high = buoyancy.range_ml
-        dives = {"depth_m": _depth(vehicle), "ballast_ml": 0.8 * min(-low, high)}
+        dives = {"depth_m": depth, "ballast_ml": 0.8 * min(-low, high)}
     dives["pitch_deg"] = min(30.0, specification.pitch_deg) if specification else 30.0
     return {
         "name": "configuration",
@@ -78,20 +81,12 @@ def _dive(name: str, vehicle: "Vehicle") -> dict[str, Any]:
     }
 
 
-def _depth(vehicle: "Vehicle") -> float:
-    """Greatest depth that the vehicle's file states [m]."""
-    hull, specification = vehicle.description.hull, vehicle.description.specification
-    if hull is not None and hull.depth_rating_m is not None:
-        return hull.depth_rating_m
-    return specification.depth_m if specification is not None else _UNRATED_M
-
-
 def _begun(vehicle: "Vehicle", setup: "Setup") -> "ConfigurationFile":
     """The tables of the configuration."""
     from stommel.files.sentences import validated
-    from stommel.onboard.coordination.config.tables import ConfigurationFile
+    from stommel.onboard.coordination.config.configuration_file import ConfigurationFile
+    from stommel.planning.vehicle_limits import vehicle_limits
     from stommel.sitl.equipment import actuator_limits, safety_limits
-    from stommel.vehicle.fingerprint import untrimmed_fingerprint
 
     actuators, safety = actuator_limits(setup), safety_limits(setup)
     battery = vehicle.description.battery
@@ -101,15 +96,7 @@ def _begun(vehicle: "Vehicle", setup: "Setup") -> "ConfigurationFile":
         "kind": "vehicle configuration",
         "vehicle": vehicle.name,
         "vehicle_id": 1,
-        "limits": {
-            "vehicle_sha256": untrimmed_fingerprint(vehicle),
-            "ballast_ml": [_rounded(1e6 * actuators.V_b_least), _rounded(1e6 * actuators.V_b_greatest)],
-            "moving_mass_mm": [_rounded(1e3 * actuators.r_px_aft), _rounded(1e3 * actuators.r_px_fore)],
-            "steering_deg": _degrees(actuators.steering),
-            "depth_rating_m": safety.hull_rating_depth,
-            "battery_wh": None if battery is None else _rounded(battery.capacity_ah * battery.voltage_v),
-            "internal_pressure_kpa": 101.325,
-        },
+        "limits": vehicle_limits(vehicle),
         "positions": {
             "nose_up_mm": _rounded(1e3 * actuators.r_px_nose_up),
             "surface_mm": _rounded(1e3 * actuators.r_px_surface),
@@ -136,9 +123,3 @@ def _begun(vehicle: "Vehicle", setup: "Setup") -> "ConfigurationFile":
 
 def _rounded(value: float) -> float:
     return float(round(value, 3))
-
-
-def _degrees(angle: float) -> float:
-    from math import degrees
-
-    return _rounded(degrees(angle))

@@ -48,23 +48,13 @@ def orders(
 
     Example: stommel orders pool_trial --output pool-orders.toml
     """
-    from stommel.control.orders_file import OrdersHeader, write_orders
+    from stommel.control.orders_file import write_orders
     from stommel.simulation.scenario.loading import load_mission
+    from stommel.simulation.scenario.orders_header import orders_header
     from stommel.simulation.scenario.shipped import mission_path
-    from stommel.vehicle.fingerprint import untrimmed_fingerprint
-    from stommel.version import __version__
 
     loaded = load_mission(mission_path(mission))
-    header = OrdersHeader(
-        mission=loaded.scenario.name,
-        created_from=Path(loaded.origin).name,
-        vehicle=loaded.vehicle.name,
-        vehicle_sha256=untrimmed_fingerprint(loaded.vehicle),
-        physics=loaded.scenario.physics,
-        density_kg_m3=loaded.vehicle.neutral_density_kg_m3,
-        stommel=__version__,
-        expires_hours=loaded.scenario.duration_days * 24.0 if expires_hours is None else expires_hours,
-    )
+    header = orders_header(loaded, expires_hours)
     told = planned_orders(loaded)
     written = []
     if output is not None:

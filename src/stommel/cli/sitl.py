@@ -15,6 +15,7 @@ from stommel.cli.options import JsonOption
 from stommel.cli.output import show_values
 from stommel.cli.paths import PlotsOption, folder_parser, refuse_same
 from stommel.cli.sitl_campaign import campaign, replay
+from stommel.cli.sitl_radio import KeyOption, LinkOption, radio_at_the_end, radio_words, shore_at
 from stommel.cli.sitl_stand_in import stand_in
 from stommel.cli.status import INTERRUPTED
 from stommel.files.units import counted
@@ -22,7 +23,6 @@ from stommel.files.units import counted
 if TYPE_CHECKING:
     from stommel.simulation.flight import Flown
     from stommel.simulation.scenario.mission import Mission
-    from stommel.sitl.faults.injector import Injector
     from stommel.sitl.flight import Watcher
     from stommel.sitl.real_time import Pace
     from stommel.sitl.system import System
@@ -91,6 +91,8 @@ def fly(
     live: Annotated[
         bool | None, typer.Option("--live/--no-live", help="Show the flight; if left out, where there is a terminal.")
     ] = None,
+    link: LinkOption = None,
+    key: KeyOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Fly a mission with coordinator, nodes, bus and instruments in the loop; the same seed gives the same bytes.
@@ -103,14 +105,21 @@ def fly(
     refuse_same("--log", log, plots)
     from stommel.simulation.scenario.shipped import mission_path
     from stommel.sitl.faults.injector import Injector
+    from stommel.sitl.log_folder import logbook_in
     from stommel.sitl.scenario import load_scenario
+    from stommel.sitl.system import System
 
-    mission, faults = load_scenario(mission_path(scenario))
+    mission, faults, air = load_scenario(mission_path(scenario))
     if seed is not None:
         mission = with_seed(mission, seed)
     if faults and separate_nodes:
         raise typer.BadParameter("a scenario with faults flies in one process", param_hint="--separate-nodes")
-    flown, about = _flown(mission, Injector(faults, mission.scenario.seed), log, times, separate_nodes, live)
+    with shore_at(link, key) as (shore, guard):
+        system = System(
+            mission, None if log is None else logbook_in(log, mission), Injector(faults, mission.scenario.seed),
+            radio=air, shore=shore, guard=guard,
+        )  # fmt: skip
+        flown, about = _flown(system, log, times, separate_nodes, live)
     row = described(flown, None) | about
     with writing("while writing; the files that are there are whole"):
         written = write(flown, output, plots, track)
@@ -118,17 +127,14 @@ def fly(
 
 
 def _flown(
-    mission: "Mission", inject: "Injector", log: Path | None, speed: float | None, separate: bool, live: bool | None
+    system: "System", log: Path | None, speed: float | None, separate: bool, live: bool | None
 ) -> tuple["Flown", dict[str, Any]]:
     """Fly, and say what the software was doing at the end."""
     from stommel.sitl.flight import fly as fly_in_the_loop
     from stommel.sitl.interruption import Interruption
-    from stommel.sitl.log_folder import logbook_in
     from stommel.sitl.real_time import Pace
-    from stommel.sitl.system import System
 
-    logbook = None if log is None else logbook_in(log, mission)
-    system = System(mission, logbook, inject)
+    mission, logbook = system.mission, system.coordinator.recorder.logbook
     pace = None if speed is None else Pace(speed)
     with ExitStack() as around, _told(system, log):
         stop = around.enter_context(Interruption())
@@ -157,10 +163,10 @@ def _nodes(system: "System", separate: bool, *, in_real_time: bool) -> Iterator[
     if not separate:
         yield "in one process"
         return
-    from stommel.sitl.multicast import Multicast, works
+    from stommel.sitl.multicast import own_bus, works
     from stommel.sitl.separate_nodes import SeparateNodes
 
-    multicast = Multicast.own() if in_real_time else None
+    multicast = own_bus() if in_real_time else None
     if multicast is not None:
         objection = works(multicast)
         if objection:
@@ -234,6 +240,7 @@ def _about(system: "System", nodes: str, log: Path | None, pace: "Pace | None") 
         "frames_rejected": decoder.rejected.total(),
         "log": None if log is None else str(log),
         "fell_behind_s": None if pace is None else pace.lost,
+        "radio": radio_at_the_end(system),
     }
 
 
@@ -248,6 +255,7 @@ def _show(row: dict[str, Any]) -> None:
             f"{row['frames_lost']} lost, {row['frames_rejected']} rejected"
         ),
     }
+    values["radio"] = radio_words(row["radio"])
     if row["log"] is not None:
         values["log"] = row["log"]
     if row["fell_behind_s"]:

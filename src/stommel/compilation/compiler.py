@@ -8,7 +8,7 @@ Python.
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import cache
 from importlib.util import find_spec
@@ -85,7 +85,7 @@ def run_plain(function: Callable[..., Any], arguments: tuple[Any, ...], named: M
     CompilerWantedError
         It takes too long, or stops where compiled code goes on with infinity or NaN (1.0 / 0.0, the root of -1).
     """
-    import numpy as np  # noqa: PLC0415 - `stommel --help` does without
+    from numpy import errstate  # noqa: PLC0415 - `stommel --help` does without
 
     _question.calls += 1
     if _question.is_running:
@@ -93,28 +93,60 @@ def run_plain(function: Callable[..., Any], arguments: tuple[Any, ...], named: M
             raise _TooLongError
         return function(*arguments, **named)
     given = (*arguments, *named.values()) if _may_compile() else ()
-    arrays = [one for one in given if isinstance(one, np.ndarray) and one.flags.writeable]
-    before = [array.copy() for array in arrays]
+    before = [(one, one.copy()) for one in _changeable(given)]
     _question.is_running = True
     try:
-        with np.errstate(all="ignore"):
+        with errstate(all="ignore"):
             return function(*map(_by_name, arguments), **{name: _by_name(one) for name, one in named.items()})
     except (_TooLongError, ArithmeticError, ValueError) as error:
         if not _may_compile():
             raise
-        for array, old in zip(arrays, before, strict=True):
-            array[...] = old
+        for one, old in before:
+            _put_back(one, old)
         raise CompilerWantedError from error
     finally:
         _question.is_running = False
 
 
-def _by_name(argument: Any) -> Any:
-    """An array of records whose rows give their fields as attributes, as they do in compiled code."""
+def _changeable(arguments: Iterable[Any]) -> Iterator[Any]:
+    """Arrays and records that a function may change, also within tuples."""
     import numpy as np  # noqa: PLC0415
 
+    for one in arguments:
+        if isinstance(one, tuple):
+            yield from _changeable(one)
+        elif (isinstance(one, np.ndarray) and one.flags.writeable) or isinstance(one, np.record):
+            yield one
+
+
+def _put_back(one: Any, old: Any) -> None:
+    """Let an array or a record be what its copy is."""
+    names = () if one.shape else one.dtype.names or ()
+    for name in names:
+        one[name] = old[name]
+    if not names:
+        one[...] = old
+
+
+def _by_name(argument: Any) -> Any:
+    """An argument whose arrays of records, within any tuples, give the fields of a row as attributes.
+
+    In compiled code they do so by themselves.
+    """
+    import numpy as np  # noqa: PLC0415
+
+    if isinstance(argument, tuple):
+        return _tuple_by_name(argument)
     structured = isinstance(argument, np.ndarray) and argument.dtype.names is not None
     return argument.view(np.recarray) if structured else argument
+
+
+def _tuple_by_name(argument: tuple[Any, ...]) -> tuple[Any, ...]:
+    parts = [part if isinstance(part, float) else _by_name(part) for part in argument]
+    if all(part is given for part, given in zip(parts, argument, strict=True)):
+        return argument
+    make: Callable[[list[Any]], tuple[Any, ...]] = getattr(argument, "_make", tuple)  # of named tuples
+    return make(parts)
 
 
 def before_compiling(extension: Callable[[], None]) -> Callable[[], None]:

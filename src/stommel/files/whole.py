@@ -3,6 +3,7 @@
 import errno
 import os
 import shutil
+import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -84,6 +85,45 @@ def write_whole(path: Path, content: bytes | str) -> None:
     """
     with whole_file(path) as temporary:
         temporary.write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
+
+
+def write_private(path: Path, content: str) -> None:
+    """Write `content` to `path` as a file that only its owner may read; it is on the disk under its name at the end.
+
+    Raises
+    ------
+    OutputError
+        The file or its folder cannot be written, or no regular file stands there; what stood there still does.
+    """
+    temporary: Path | None = None
+    try:
+        if os.path.lexists(path) and not path.is_file():
+            raise OutputError(f"{shown(path)}: cannot be written: it is no regular file")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=".", suffix=".part")  # of mode 0600
+        temporary = Path(name)
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(content.encode("utf-8"))
+            file.flush()
+            os.fsync(descriptor)
+        temporary.replace(path)
+        _sync_names(path.parent)
+    except OSError as error:
+        raise OutputError(f"{shown(path)}: cannot be written: {error.strerror or error}") from error
+    finally:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
+
+
+def _sync_names(folder: Path) -> None:
+    """Bring a folder's names to the disk; Windows keeps them by itself, and opens no folder."""
+    if sys.platform == "win32":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
 
 
 @contextmanager

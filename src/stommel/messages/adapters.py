@@ -53,6 +53,8 @@ class Adapter:
     """Name of the adapter, port or address; the usual one of the interface if empty."""
     bitrate: int | None = None
     """[bit/s], of slcan only."""
+    stays_here: bool = False
+    """Whether frames stay on this machine, of udp_multicast only."""
     keys: str = "can."
     """What stands before the key in messages: the table of a file, or `--` on the command line."""
 
@@ -123,6 +125,7 @@ def open_adapter(adapter: Adapter) -> "BusABC":
     if multicast is not None:
         address, port = multicast
         options |= {"channel": address, "fd": False} | ({} if port is None else {"port": port})
+        options |= {"hop_limit": 0} if adapter.stays_here else {}
     try:
         bus = Bus(ignore_config=True, **options)
         if adapter.interface == "udp_multicast":

@@ -5,6 +5,17 @@ from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits
 from stommel.vehicle import Vehicle
 from stommel.vehicle.fingerprint import untrimmed_fingerprint
 
+AIR_AT_THE_SURFACE_KPA = 101.325
+"""Standard atmosphere: in a hull without its vacuum the pressure is no greater."""
+
+
+def depth_rating(vehicle: Vehicle) -> float | None:
+    """Depth that the file of a vehicle rates it for [m], by its hull or else by its specification."""
+    hull, specification = vehicle.description.hull, vehicle.description.specification
+    if hull is not None and hull.depth_rating_m is not None:
+        return hull.depth_rating_m
+    return specification.depth_m if specification is not None else None
+
 
 def vehicle_limits(vehicle: Vehicle) -> VehicleLimits:
     """What the software's configuration says of a vehicle.
@@ -16,9 +27,7 @@ def vehicle_limits(vehicle: Vehicle) -> VehicleLimits:
     """
     d = vehicle.description
     engine, drive = d.actuators.buoyancy, d.actuators.moving_mass
-    depth = d.hull.depth_rating_m if d.hull is not None else None
-    if depth is None and d.specification is not None:
-        depth = d.specification.depth_m
+    depth = depth_rating(vehicle)
     needed = {"actuators.buoyancy": engine, "actuators.moving_mass": drive, "hull.depth_rating_m": depth}
     missing = [key for key, found in needed.items() if found is None]
     if missing or engine is None or drive is None or depth is None:
@@ -32,5 +41,6 @@ def vehicle_limits(vehicle: Vehicle) -> VehicleLimits:
         moving_mass_mm=drive.travel_mm,
         steering_deg=steering.travel_deg if steering is not None else 0.0,
         depth_rating_m=depth,
-        battery_wh=battery.capacity_ah * battery.voltage_v if battery is not None else None,
+        internal_pressure_kpa=AIR_AT_THE_SURFACE_KPA,
+        battery_wh=round(battery.capacity_ah * battery.voltage_v, 3) if battery is not None else None,
     )

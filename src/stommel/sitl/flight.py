@@ -28,6 +28,8 @@ def fly(
         Holds the loop back to a multiple of real time; as fast as it goes if left out.
     """
     plant = system.plant
+    if pace is not None:
+        system.air.wait = pace.wait
     try:
         while system.running:
             if pace is not None:

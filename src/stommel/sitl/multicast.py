@@ -4,7 +4,6 @@ import os
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
 
 from stommel.messages.adapters import Adapter, BusError
 from stommel.messages.bus import CanBus
@@ -12,47 +11,17 @@ from stommel.messages.database import COORDINATOR
 from stommel.messages.frames import Frame
 from stommel.sitl.can_bus import BITRATE, bits_of
 
-if TYPE_CHECKING:
-    from can import BusABC
-
 UNDER_WAY = 0.004
 """Time that a frame is given to reach the other processes [s]."""
 _FIRST_PORT, _PORTS = 43200, 20000
 
 
-class Multicast(NamedTuple):
-    """Address and port of one vehicle's bus."""
-
-    channel: str
-    port: int
-
-    @classmethod
-    def own(cls) -> "Multicast":
-        """Return one that no other flight on this machine has: port and address follow from the process."""
-        number = os.getpid()
-        return cls(f"239.74.{163 + number // 250 % 90}.{1 + number % 250}", _FIRST_PORT + number % _PORTS)
-
-    def connect(self) -> CanBus:
-        """Open it.
-
-        Raises
-        ------
-        BusError
-            The system has no multicast, or no route for it.
-        """
-        return CanBus(Adapter("udp_multicast", self.channel), self._open)
-
-    def _open(self, adapter: Adapter) -> "BusABC":
-        from can import Bus  # noqa: PLC0415 - only flights in real time need it
-
-        try:
-            # no hop: what is said stays on this machine
-            return Bus(
-                interface="udp_multicast", channel=adapter.channel, port=self.port, hop_limit=0, fd=False,
-                ignore_config=True,
-            )  # fmt: skip
-        except Exception as error:  # drivers' errors come as they are
-            raise BusError(f"multicast {self.channel}: cannot be opened: {error}") from error
+def own_bus() -> Adapter:
+    """Return a bus that no other flight on this machine has: address and port follow from the process."""
+    number = os.getpid()
+    address = f"239.74.{163 + number // 250 % 90}.{1 + number % 250}"
+    channel = f"{address}:{_FIRST_PORT + number % _PORTS}"
+    return Adapter("udp_multicast", channel, stays_here=True, keys="separate nodes: ")
 
 
 @dataclass
@@ -87,10 +56,10 @@ class CoordinatorsBus:
         return self.bits / (BITRATE * seconds) if seconds > 0.0 else 0.0
 
 
-def works(multicast: Multicast, wait: float = 0.5) -> str:
+def works(multicast: Adapter, wait: float = 0.5) -> str:
     """Say why multicast does not work on this machine; nothing if it does."""
     try:
-        with multicast.connect() as one, multicast.connect() as other:
+        with CanBus(multicast) as one, CanBus(multicast) as other:
             one.send(Frame(0x7FF, b"\x01"))
             until = time.monotonic() + wait
             while time.monotonic() < until:

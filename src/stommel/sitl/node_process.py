@@ -12,6 +12,7 @@ from contextlib import ExitStack, suppress
 from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from stommel.messages.adapters import Adapter
 from stommel.messages.bus import CanBus
 from stommel.messages.frames import Frame
 from stommel.onboard.execution.acquisition_io import AcquisitionReadings
@@ -21,7 +22,6 @@ from stommel.onboard.execution.motion_io import MotionReadings
 from stommel.onboard.execution.motion_node import MotionNode
 from stommel.onboard.execution.motion_settings import MotionSettings
 from stommel.sitl.ctd_port import CtdPort
-from stommel.sitl.multicast import Multicast
 
 if TYPE_CHECKING:
     from stommel.sitl.nodes import Acquisition, Motion
@@ -41,11 +41,11 @@ class Asked(NamedTuple):
     """What else its `step` takes: the interval [s], or the CTD's bytes."""
 
 
-def serve(connection: Connection, settings: Settings, multicast: Multicast | None) -> None:
+def serve(connection: Connection, settings: Settings, multicast: Adapter | None) -> None:
     """Be a node until the connection ends; this is the main function of its process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for whom started us, who then ends us
     with ExitStack() as open_things, suppress(EOFError, OSError):
-        bus = None if multicast is None else open_things.enter_context(multicast.connect())
+        bus = None if multicast is None else open_things.enter_context(CanBus(multicast))
         step = _stepper(settings)
         connection.send(os.getpid())
         while True:

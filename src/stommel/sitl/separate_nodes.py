@@ -8,11 +8,13 @@ from multiprocessing.process import BaseProcess
 from types import TracebackType
 from typing import Any, Self
 
+from stommel.messages.adapters import Adapter
+from stommel.messages.bus import CanBus
 from stommel.messages.frames import Frame
 from stommel.onboard.execution.acquisition_io import AcquisitionOutputs, AcquisitionReadings
 from stommel.onboard.execution.motion_io import AT_REST, DriveOutputs, MotionReadings
 from stommel.sitl.equipment import acquisition_settings, motion_settings
-from stommel.sitl.multicast import CoordinatorsBus, Multicast
+from stommel.sitl.multicast import CoordinatorsBus
 from stommel.sitl.node_process import Settings, serve
 from stommel.sitl.system import System
 
@@ -27,7 +29,7 @@ _DEAD = AcquisitionOutputs(0, False, False, b"")
 class NodeProcess:
     """A process that is a node, as long as it lives; afterwards it says nothing, as a board without power."""
 
-    def __init__(self, name: str, settings: Settings, multicast: Multicast | None, say: Callable[[str], None]) -> None:
+    def __init__(self, name: str, settings: Settings, multicast: Adapter | None, say: Callable[[str], None]) -> None:
         spawning = multiprocessing.get_context("spawn")  # a copy of our threads and terminal would do harm
         self._connection, theirs = spawning.Pipe()
         self._name, self._say = name, say
@@ -127,7 +129,7 @@ class SeparateNodes:
     """
 
     def __init__(
-        self, system: System, multicast: Multicast | None = None, say: Callable[[str], None] = lambda _: None
+        self, system: System, multicast: Adapter | None = None, say: Callable[[str], None] = lambda _: None
     ) -> None:
         self._system, self._multicast, self._say = system, multicast, say
         self.processes: dict[str, NodeProcess] = {}
@@ -142,7 +144,7 @@ class SeparateNodes:
             "acquisition": acquisition_settings(machinery),
         }
         if self._multicast is not None:
-            self._bus = system.bus = CoordinatorsBus(self._multicast.connect())
+            self._bus = system.bus = CoordinatorsBus(CanBus(self._multicast))
         for name, of_node in settings.items():
             self.processes[name] = NodeProcess(name, of_node, self._multicast, self._say)
         system.motion = _RemoteMotion(self.processes["motion"])

@@ -13,6 +13,8 @@ import numpy as np
 from stommel import __version__
 from stommel.control.commands import GOING_ON
 from stommel.control.decision import decide
+from stommel.link.channel.settings import ChannelSettings
+from stommel.link.signing.guard import Guard
 from stommel.messages.database import ACQUISITION, COORDINATOR, MOTION, database_hash
 from stommel.messages.frames import Frame
 from stommel.onboard.coordination.coordinator import COMPASS, GNSS, RADIO, Coordinator
@@ -36,6 +38,8 @@ from stommel.sitl.instruments import CompassPort, GnssPort, compass_truth
 from stommel.sitl.nodes import Acquisition, Bus, Motion
 from stommel.sitl.payload import NOTHING, Payload
 from stommel.sitl.plant import Felt, Plant
+from stommel.sitl.radio.air import Air, End
+from stommel.sitl.radio.station import SYSTEM, Station
 
 NODES = (COORDINATOR, MOTION, ACQUISITION)
 _SWITCHED_OFF = AcquisitionOutputs(0, False, False, b"")
@@ -65,6 +69,12 @@ class System:
         Faults; none if left out. If it has a disk, logbooks are kept there, a new one at each start of the coordinator.
     expires
         Time of the mission at which its time is over for the software [s].
+    radio
+        What the air is like; as on a calm day if left out.
+    shore
+        Whoever is at the other end of the radio; nobody if left out.
+    guard
+        Whom the vehicle believes; everybody if left out.
 
     Raises
     ------
@@ -78,6 +88,9 @@ class System:
         logbook: Logbook | None = None,
         inject: Injector | None = None,
         expires: float = inf,
+        radio: ChannelSettings | None = None,
+        shore: End | None = None,
+        guard: Guard | None = None,
     ) -> None:
         self.mission = mission
         self.inject = Injector() if inject is None else inject
@@ -96,7 +109,11 @@ class System:
         self.restarts = dict.fromkeys(NODES, 0)
         """How often each computer has started anew."""
         self._kept = MemoryDisk() if self.inject.disk is None else self.inject.disk
+        channel = ChannelSettings() if radio is None else radio
+        self.air = Air(self.plant, channel, shore)
+        self._station = Station(mission, setup, self._kept, channel, Guard.unsigned(SYSTEM) if guard is None else guard)
         self.coordinator = self._started_coordinator(0.0, logbook)
+        self.link = self._station.link(self.coordinator, expires)
         self.coordinator.request(OperatorRequests(start=True))
 
     @property
@@ -123,6 +140,7 @@ class System:
         self._move(t, readings)
         self._coordinate(felt, t)
         outputs = self._move(t, readings)
+        self._call(t)
         plant.move(self._drives(outputs), self._memory())
 
     def _say(self, node: int, frames: list[Frame]) -> None:
@@ -153,6 +171,14 @@ class System:
         if inject.falls(COORDINATOR):
             inject.lose_power()
 
+    def _call(self, t: float) -> None:
+        """Let vehicle and shore speak to each other by radio for a step."""
+        inject = self.inject
+        runs, clock = inject.runs(COORDINATOR), inject.clock(t)
+        if runs:
+            self.link.observe(clock)
+        self.air.pass_time(self.link if runs else None, t, self.plant.step, clock - t, on=self.switched.radio)
+
     def _started_coordinator(self, t: float, logbook: Logbook | None) -> Coordinator:
         """Switch the coordinator on, with what its disk keeps of the time before."""
         setup, inject = self.plant.setup, self.inject
@@ -179,6 +205,7 @@ class System:
             self.acquisition = AcquisitionNode(settings, self.restarts[node], ctd=self.ports.ctd)
         else:
             self.coordinator = self._started_coordinator(t, self.coordinator.recorder.logbook)
+            self.link = self._station.link(self.coordinator, self.expires)
 
     def _acquire(self, felt: Felt, t: float) -> None:
         """Let the acquisition node and its CTD have their step."""

@@ -17,7 +17,7 @@ from stommel.control.dive_cycle import DRIFT, PHASES, RECOVERY, SURFACE
 from stommel.errors import FileError
 from stommel.files.docstrings import attribute_docstrings
 from stommel.files.table_keys import models_in
-from stommel.instruments.serial_port import BAUD_RATES
+from stommel.messages.serial_port import BAUD_RATES
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.config import ConfigurationFile, read_configuration
 from stommel.onboard.coordination.config.text import configuration_text
@@ -28,10 +28,10 @@ from stommel.simulation.scenario.loading import load_mission
 from stommel.simulation.scenario.shipped import mission_path
 from stommel.simulation.setup import prepare
 from stommel.sitl.equipment import coordinator_settings
-from stommel.vehicle import load_vehicle
+from stommel.vehicle import builtin_text, load_vehicle
 from stommel.vehicle.fingerprint import untrimmed_fingerprint
 from tests.support.command import Command, run_here
-from tests.support.configuration import CONFIGURATION
+from tests.support.configuration import CALIBRATION, CONFIGURATION
 from tests.support.mutations import mutations
 
 ZJU = load_vehicle("zju")
@@ -121,7 +121,8 @@ def test_what_may_be_left_out(tmp_path: Path) -> None:
 def test_units_of_the_file_become_si(tmp_path: Path) -> None:
     changed = (
         CONFIGURATION.replace('port = "/dev/a"', 'port = "/dev/a"\ndeclination_deg = -6.0\nhold_s = 7.0')
-        + "[power]\nreserve = 0.25\ncompass_asleep_in = ['drift']\n[power.decide_every_s]\ndrift = 30.0\n"
+        + "[power]\nreserve = 0.25\nmean_over_hours = 2.0\ncompass_asleep_in = ['drift']\n"
+        + "[power.decide_every_s]\ndrift = 30.0\n"
     ).replace("depth_rating_m = 200.0", "depth_rating_m = 200.0\nbattery_wh = 1000.0")
     found = read_configuration(written(tmp_path, changed))
     assert found.coordinator.declination == radians(-6.0)
@@ -129,6 +130,7 @@ def test_units_of_the_file_become_si(tmp_path: Path) -> None:
     assert found.usable_energy == pytest.approx(0.75 * 3.6e6)
     assert (found.schedule.decide[DRIFT], found.schedule.compass[DRIFT]) == (30.0, 30.0)
     assert (found.schedule.decide[SURFACE], found.schedule.compass[SURFACE]) == (1.0, 1.0)
+    assert found.coordinator.mean_power_over == 7200.0
     assert found.safety.longest_submerged == 90_000.0
     assert found.safety.vacuum_lost == 80_000.0
     assert found.actuators.r_px_surface == 0.49
@@ -157,9 +159,7 @@ def test_rates_of_the_ports_are_those_that_open() -> None:
         model = ConfigurationFile.model_fields[table].annotation
         assert isinstance(model, type)
         for rate in BAUD_RATES:
-            ConfigurationFile.model_validate(
-                tomllib.loads(CONFIGURATION.replace(f"[{table}]\n", f"[{table}]\nbaud = {rate}\n"))
-            )
+            assert model.model_validate({"port": "/dev/a", "baud": rate}).baud == rate
 
 
 @pytest.mark.parametrize(
@@ -190,6 +190,54 @@ def test_rates_of_the_ports_are_those_that_open() -> None:
         ("[radio]", "[radoi]", "the table [radio] is missing"),
         ("[safety]", "[log]\ntotal_mib = 5.0\n[safety]",
          "log.total_mib = 5: must be at least 24, six times log.file_mib"),
+        ("[safety]", "[log]\nfolder = '..'\n[safety]", "log.folder = '..': must be a folder beside this file, no path"),
+        ("[safety]", "[log]\nfolder = '/var/log'\n[safety]", "log.folder = '/var/log': must be a folder beside"),
+        ("[safety]", "[log]\nfolder = 'a/../../b'\n[safety]", "log.folder = 'a/../../b': must be a folder beside"),
+        ("[safety]", "[log]\nfolder = 'a\\..\\..'\n[safety]", ": must be a folder beside"),
+        ("[safety]", "[log]\nfolder = 'C:log'\n[safety]", "log.folder = 'C:log': must be a folder beside"),
+        ("vehicle_id", "missions = '../m'\nvehicle_id", "missions = '../m': must be a folder beside this file"),
+        ("vehicle_id", "parameters = '/'\nvehicle_id", "parameters = '/': must be a folder beside this file"),
+        ("[-250.0, 250.0]", "[50.0, 250.0]", "limits.ballast_ml = [50.0, 250.0]: must go from below 0 to above it"),
+        ("[-250.0, 250.0]", "[-250.0, -50.0]", "limits.ballast_ml = [-250.0, -50.0]: must go from below 0 to above it"),
+        ("[-50.0, 550.0]\nsteering_deg = 60.0\ndepth_rating_m = 200.0\n[positions]\n",
+         "[95.0, 495.0]\nsteering_deg = 60.0\ndepth_rating_m = 200.0\n[positions]\ntolerance_mm = 41.0\n",
+         "positions.tolerance_mm = 41: must be at most 40 mm, a tenth of the way between the ends"),
+        ("depth_rating_m = 200.0", "depth_rating_m = 12000.0",
+         "safety.turning_time_s = 220: must be at least 357 s, in which greatest_current_a at greatest_voltage_v"),
+        ("depth_rating_m = 200.0", "depth_rating_m = 1.5",
+         "safety.submerged_depth_m = 2: must be less than limits.depth_rating_m = 1.5"),
+        ("turning_time_s = 220.0", "turning_time_s = 0.0",
+         "safety.turning_time_s = 0.0: must be between 10 and 86400 s"),
+        ("longest_submerged_hours = 25.0", "longest_submerged_hours = 0.1",
+         "safety.longest_submerged_hours = 0.1: must be at least 0.117 h, turning_time_s and a rise from"),
+        ("lowest_voltage_v = 17.0", "lowest_voltage_v = 6.0",
+         "safety: lowest_voltage_v = 6: must be at least 7 V, a quarter of greatest_voltage_v"),
+        ("depth_rating_m = 200.0", "depth_rating_m = 200.0\nbattery_wh = 1.08e6",
+         "limits.battery_wh = 1.08e+06: must be between 33.6 and 1.68e+05 Wh, which last 0.2 to 1000 h at safety."),
+        ("depth_rating_m = 200.0", "depth_rating_m = 200.0\nbattery_wh = 1.08", "limits.battery_wh = 1.08: must be "),
+        ("depth_rating_m = 200.0", "depth_rating_m = 200.0\ninternal_pressure_kpa = 200.0",
+         "limits.internal_pressure_kpa = 200: must be between 80 and 106 kPa, safety.vacuum_lost_kpa and"),
+        ("depth_rating_m = 200.0", "depth_rating_m = 200.0\ninternal_pressure_kpa = 60.0",
+         "limits.internal_pressure_kpa = 60: must be between 80 and 106 kPa"),
+        ("[safety]", "[power]\ngps_in = ['surface']\n[safety]", "power.gps_in = ['surface']: must have recovery"),
+        ("[safety]", "[power]\ngps_in = []\n[safety]", "power.gps_in = []: must have surface and recovery, where"),
+        ("[safety]", "[power]\nreserve = 1.0\n[safety]", "power.reserve = 1.0: must be between 0 and 0.9"),
+        ("[safety]\nsubmerged_depth_m = 2.0\nlongest_submerged_hours = 25.0\nturning_time_s = 220.0\n",
+         "[power.decide_every_s]\ninflection = 30.0\n"
+         "[safety]\nsubmerged_depth_m = 2.0\nlongest_submerged_hours = 25.0\nturning_time_s = 20.0\n",
+         "power.decide_every_s.inflection = 30: must be less than safety.turning_time_s = 20"),
+        ('port = "/dev/a"', 'port = "/dev/a"\nhold_s = 5.0\nsettle_s = 6.0',
+         "compass.settle_s = 6: must be at most compass.hold_s = 5, for which a heading is held"),
+        ('port = "/dev/a"', 'port = "/dev/a"\ninterval_s = 30.0',
+         "compass.interval_s = 30.0: must be between 0.1 and 3 s"),
+        ('port = "/dev/a"', 'port = "/dev/a"\ninterval_s = 0.1\nbaud = 1200',
+         "compass.interval_s = 0.1: must be at least 0.75 s, in which compass.baud = 1200 carries 90 bytes"),
+        ('port = "/dev/b"', 'port = "/dev/b"\ninterval_s = 30.0',
+         "gnss.interval_s = 30.0: must be between 0.05 and 2 s"),
+        ('port = "/dev/b"', 'port = "/dev/b"\ninterval_s = 0.2',
+         "gnss.interval_s = 0.2: must be at least 0.27 s, in which gnss.baud = 9600 carries 256 bytes"),
+        ("[safety]", '[can]\ninterface = "slcan"\nchannel = "/dev/c"\nbitrate = 500000\n[safety]',
+         "radio.port = '/dev/c': is that of can too; each needs a port of its own"),
         ("[safety]", "[power.decide_every_s]\ndrift = 0.0\n[safety]",
          "power.decide_every_s.drift = 0.0: must be between 0.1 and 60"),
         ("[safety]", "[power]\ngps_in = ['surfaced']\n[safety]", "did you mean surface?"),
@@ -206,6 +254,20 @@ def test_bad_configurations_are_refused_by_key(tmp_path: Path, old: str, new: st
     lines = str(refused.value).splitlines()
     assert all(line.startswith(f"{path}: ") for line in lines)
     assert any(sentence in line for line in lines), lines
+
+
+def test_a_calibration_that_is_the_configuration_or_believes_no_field_is_refused(tmp_path: Path) -> None:
+    path = written(tmp_path, CONFIGURATION.replace('port = "/dev/a"', 'port = "/dev/a"\ncalibration = "./CONFIG.toml"'))
+    with pytest.raises(FileError) as refused:
+        read_configuration(path)
+    assert str(refused.value) == (
+        f"{path}: compass.calibration = './CONFIG.toml': is this file itself; must be one of "
+        "`stommel vehicle calibrate-compass`"
+    )
+    (tmp_path / "compass.toml").write_text(CALIBRATION.replace("[35.0, 60.0]", "[105.0, 120.0]"))
+    written(tmp_path, CONFIGURATION.replace('port = "/dev/a"', 'port = "/dev/a"\ncalibration = "compass.toml"'))
+    with pytest.raises(FileError, match="it believes fields of 105 to 120 uT; safety has 20 to 100: no heading"):
+        read_configuration(path)
 
 
 @pytest.mark.parametrize("kind", ["1e30", "1e308", "nan", "text", "negative"])
@@ -231,6 +293,17 @@ def test_vehicles_that_cannot_fly_a_mission_are_refused(stommel: Command, tmp_pa
     done = stommel("vehicle", "config", vehicle, "--output", "out")
     assert (done.status, done.out) == (2, "")
     assert len(done.err.splitlines()) == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_vehicle_without_a_rating_is_refused(stommel: Command, tmp_path: Path) -> None:
+    """Nothing would keep missions from going deeper than its hull bears. Oracle: zju.toml without its two depths."""
+    before, _, after = builtin_text("zju").partition("[specification]\n")
+    unrated = (before + after.partition("\n\n")[2]).replace("\ndepth_rating_m", "\n# depth_rating_m")
+    (tmp_path / "unrated.toml").write_text(unrated)
+    done = stommel("vehicle", "config", "unrated.toml", "--output", "out")
+    assert (done.status, len(done.err.splitlines())) == (2, 1)
+    assert "hull.depth_rating_m is missing: the limits of missions need it" in done.err
     assert not (tmp_path / "out").exists()
 
 

@@ -68,13 +68,13 @@ def cell_levels(
                 row, column = j + corner // 2, i + corner % 2
                 total += w
                 a, b = water[first, row, column], water[second, row, column]
-                out[k, TEMPERATURE] += w * (a[T, k] + share * (b[T, k] - a[T, k]))
-                out[k, SALINITY] += w * (a[S_A, k] + share * (b[S_A, k] - a[S_A, k]))
-                out[k, CT_ROW] += w * (a[CT, k] + share * (b[CT, k] - a[CT, k]))
-                out[k, NORTH] += w * (a[U_X, k] + share * (b[U_X, k] - a[U_X, k]))
-                out[k, EAST] += w * (a[U_Y, k] + share * (b[U_Y, k] - a[U_Y, k]))
-                out[k, NORTH_RATE] += w * (b[U_X, k] - a[U_X, k]) / span
-                out[k, EAST_RATE] += w * (b[U_Y, k] - a[U_Y, k]) / span
+                out[k, TEMPERATURE] += w * _between(a[T, k], b[T, k], share)
+                out[k, SALINITY] += w * _between(a[S_A, k], b[S_A, k], share)
+                out[k, CT_ROW] += w * _between(a[CT, k], b[CT, k], share)
+                out[k, NORTH] += w * _between(a[U_X, k], b[U_X, k], share)
+                out[k, EAST] += w * _between(a[U_Y, k], b[U_Y, k], share)
+                out[k, NORTH_RATE] += w * float(b[U_X, k] - a[U_X, k]) / span
+                out[k, EAST_RATE] += w * float(b[U_Y, k] - a[U_Y, k]) / span
         if total > _TOO_LITTLE:
             for q in range(TEMPERATURE, NORTH_ACCELERATION):
                 out[k, q] /= total
@@ -115,8 +115,13 @@ def _accelerate(
 @inlined
 def _blend(nodes: Nodes, first: int, second: int, share: float, j: int, i: int, field: int, k: int) -> float:
     a, b = nodes.water[first, j, i, field, k], nodes.water[second, j, i, field, k]
-    blend: float = a + share * (b - a)
-    return blend
+    return _between(a, b, share)
+
+
+@inlined
+def _between(a: np.float32, b: np.float32, share: float) -> float:
+    """Value between those of two times, in double precision; plain Python would go on in that of the grid."""
+    return float(a) + share * float(b - a)
 
 
 @inlined
@@ -138,10 +143,17 @@ def single_levels(nodes: Nodes, slot: tuple[int, int, float, float], out: np.nda
         out[k, CT_ROW] = _blend(nodes, first, second, share, 0, 0, CT, k)
         out[k, EAST] = _blend(nodes, first, second, share, 0, 0, U_X, k)
         out[k, NORTH] = _blend(nodes, first, second, share, 0, 0, U_Y, k)
-        out[k, EAST_RATE] = (nodes.water[second, 0, 0, U_X, k] - nodes.water[first, 0, 0, U_X, k]) / span
-        out[k, NORTH_RATE] = (nodes.water[second, 0, 0, U_Y, k] - nodes.water[first, 0, 0, U_Y, k]) / span
+        out[k, EAST_RATE] = float(nodes.water[second, 0, 0, U_X, k] - nodes.water[first, 0, 0, U_X, k]) / span
+        out[k, NORTH_RATE] = float(nodes.water[second, 0, 0, U_Y, k] - nodes.water[first, 0, 0, U_Y, k]) / span
         out[k, NORTH_ACCELERATION] = out[k, NORTH_RATE]
         out[k, EAST_ACCELERATION] = out[k, EAST_RATE]
+
+
+@inlined
+def _tide(nodes: Nodes, n: int, j: int, i: int) -> tuple[float, float, float, float]:
+    """One constituent at a node, in double precision."""
+    a = nodes.tide[n, j, i]
+    return float(a[0]), float(a[1]), float(a[2]), float(a[3])
 
 
 @inlined
@@ -161,7 +173,7 @@ def add_single_tide(nodes: Nodes, time: float, out: np.ndarray) -> None:
     for n in range(nodes.tide_speed.size):
         omega = nodes.tide_speed[n]
         c, s = cos(omega * time), sin(omega * time)
-        a = nodes.tide[n, 0, 0]
+        a = _tide(nodes, n, 0, 0)
         _add_current(
             out,
             a[2] * c + a[3] * s,
@@ -189,7 +201,7 @@ def add_tide(
             row, column = at.j + corner // 2, at.i + corner % 2
             if nodes.levels[row, column] > 0:
                 w = weights[corner]
-                a = nodes.tide[n, row, column]
+                a = _tide(nodes, n, row, column)
                 total += w
                 x += w * (a[0] * c + a[1] * s)
                 y += w * (a[2] * c + a[3] * s)

@@ -31,42 +31,49 @@ class Inside(NamedTuple):
     has_altimeter: bool
 
 
+class _Silent(NamedTuple):
+    """Which sensors say nothing: theirs or their node's messages do not come, or say that nothing was measured."""
+
+    compass: bool
+    pressure: bool
+    altimeter: bool
+    leak: bool
+    vacuum: bool
+    battery: bool
+    ballast: bool
+    mass: bool
+    steering: bool
+
+
 def situation_of(seen: Perception, inside: Inside, readings: Readings, t: float) -> Situation:
     """Return the situation at a time [s]; readings of silent sensors become no numbers."""
-    says, watch = seen.says, seen.watch
-    depth_late, hull_late = seen.is_silent("Depth", t), seen.is_silent("Hull", t)
-    motion_late, battery_late = seen.is_silent("MotionStatus", t), seen.is_silent("Battery", t)
-    compass_silent = t - max(seen.attitude.at, seen.began) > seen.compass_patience
-    pressure_silent = depth_late or not says("Depth", "pressure_measured")
-    vacuum_silent = hull_late or not says("Hull", "pressure_measured")
-    battery_silent = battery_late or not says("Battery", "battery_measured")
+    says, watch, silent = seen.says, seen.watch, _silent_at(t, seen, inside.has_altimeter)
     valve_stuck = watch.reports(MOTION, "ValveStuck")
-    down = inside.phase != SURFACE and inside.submerged_since == inside.submerged_since
     oil, mass, steering = inside.drives_proven
     return Situation(
         t=t,
-        readings=_without_silent(readings, pressure_silent, vacuum_silent, battery_silent, compass_silent),
+        readings=_without_silent(readings, silent),
         phase=inside.phase,
         event=inside.event,
         alarm=inside.alarm,
-        time_submerged=t - inside.submerged_since if down else 0.0,
+        time_submerged=_time_submerged(inside, t),
         coming_up=inside.coming_up,
         motion_silent=watch.is_silent(MOTION, t),
         acquisition_silent=watch.is_silent(ACQUISITION, t),
         motion_refused=watch.is_refused(MOTION),
         acquisition_refused=watch.is_refused(ACQUISITION),
         unknown_nodes=watch.strangers,
-        compass_silent=compass_silent,
+        compass_silent=silent.compass,
         gps_silent=inside.gps_silent,
         ctd_silent=inside.ctd_silent,
-        pressure_silent=pressure_silent,
-        altimeter_silent=inside.has_altimeter and (depth_late or not says("Depth", "altimeter_answers")),
-        leak_silent=hull_late or not says("Hull", "leak_measured"),
-        vacuum_silent=vacuum_silent,
-        battery_silent=battery_silent,
-        ballast_silent=motion_late or not says("MotionStatus", "ballast_measured"),
-        mass_silent=motion_late or not says("MotionStatus", "mass_measured"),
-        steering_silent=motion_late or not says("MotionStatus", "steering_measured"),
+        pressure_silent=silent.pressure,
+        altimeter_silent=silent.altimeter,
+        leak_silent=silent.leak,
+        vacuum_silent=silent.vacuum,
+        battery_silent=silent.battery,
+        ballast_silent=silent.ballast,
+        mass_silent=silent.mass,
+        steering_silent=silent.steering,
         pump_stuck=watch.reports(MOTION, "PumpStuck") or (says("MotionDrives", "engine_stuck") and not valve_stuck),
         valve_stuck=valve_stuck,
         mass_stuck=says("MotionDrives", "mass_stuck"),
@@ -83,8 +90,8 @@ def situation_of(seen: Perception, inside: Inside, readings: Readings, t: float)
         pump_proven=oil,
         mass_proven=mass,
         steering_proven=steering,
-        field=math.nan if compass_silent else seen.attitude.field,
-        gravity=math.nan if compass_silent else seen.attitude.gravity,
+        field=math.nan if silent.compass else seen.attitude.field,
+        gravity=math.nan if silent.compass else seen.attitude.gravity,
         mission_present=inside.mission_present,
         mission_expired=inside.mission_expired,
         exceptions=inside.exceptions,
@@ -93,15 +100,38 @@ def situation_of(seen: Perception, inside: Inside, readings: Readings, t: float)
     )
 
 
-def _without_silent(readings: Readings, pressure: bool, vacuum: bool, battery: bool, compass: bool) -> Readings:
-    if not (pressure or vacuum or battery or compass):
+def _silent_at(t: float, seen: Perception, has_altimeter: bool) -> _Silent:
+    says = seen.says
+    depth, hull = seen.is_silent("Depth", t), seen.is_silent("Hull", t)
+    motion, battery = seen.is_silent("MotionStatus", t), seen.is_silent("Battery", t)
+    return _Silent(
+        compass=t - max(seen.attitude.at, seen.began) > seen.compass_patience,
+        pressure=depth or not says("Depth", "pressure_measured"),
+        altimeter=has_altimeter and (depth or not says("Depth", "altimeter_answers")),
+        leak=hull or not says("Hull", "leak_measured"),
+        vacuum=hull or not says("Hull", "pressure_measured"),
+        battery=battery or not says("Battery", "battery_measured"),
+        ballast=motion or not says("MotionStatus", "ballast_measured"),
+        mass=motion or not says("MotionStatus", "mass_measured"),
+        steering=motion or not says("MotionStatus", "steering_measured"),
+    )
+
+
+def _time_submerged(inside: Inside, t: float) -> float:
+    """Since the vehicle left the surface [s]; 0 there, and before a mission."""
+    down = inside.phase != SURFACE and not math.isnan(inside.submerged_since)
+    return t - inside.submerged_since if down else 0.0
+
+
+def _without_silent(readings: Readings, silent: _Silent) -> Readings:
+    if not (silent.pressure or silent.vacuum or silent.battery or silent.compass):
         return readings
     nan = math.nan
     return readings._replace(
-        depth=nan if pressure else readings.depth,
-        internal_pressure=nan if vacuum else readings.internal_pressure,
-        voltage=nan if battery else readings.voltage,
-        current=nan if battery else readings.current,
-        theta=nan if compass else readings.theta,
-        psi=nan if compass else readings.psi,
+        depth=nan if silent.pressure else readings.depth,
+        internal_pressure=nan if silent.vacuum else readings.internal_pressure,
+        voltage=nan if silent.battery else readings.voltage,
+        current=nan if silent.battery else readings.current,
+        theta=nan if silent.compass else readings.theta,
+        psi=nan if silent.compass else readings.psi,
     )

@@ -92,17 +92,50 @@ class Coordinator:
         self._proof = EngineProof(settings.actuators.V_b_least, settings.actuators.V_b_greatest)
         self._navigator: Navigator | None = None
         usable = settings.usable_energy
-        self._battery = None if usable is None else BatteryAccount(usable)
+        self._battery = None if usable is None else BatteryAccount(usable, mean_over=settings.mean_power_over)
         self._sleeper = Sleeper(settings.schedule)
-        self._store, self._before, self._mission = store, before, before.mission
+        self._store, self._before = store, before
+        self.mission = before.mission
+        """Number of the mission that is flown; 0 for none."""
         self._requests = NO_REQUESTS
+        self.fix: Fix | None = None
+        """The last position by GPS that was believed."""
         self._fix_sigma: float | None = None
         self._was_surfaced = True
         self._radio_since = self._sampling_since = float("inf")
 
     def request(self, requests: OperatorRequests) -> None:
-        """Ask for something, at the next decision."""
-        self._requests = requests
+        """Ask for something, at the next decision, beside what was asked before it."""
+        self._requests = OperatorRequests(*(a or b for a, b in zip(self._requests, requests, strict=True)))
+
+    def self_test(self) -> None:
+        """Have the motion node move each drive a little; `self_test_result` tells what came of it."""
+        self._nodes.ask_self_test()
+
+    @property
+    def self_test_result(self) -> str | None:
+        """Drives that did not follow in the self-test that was asked for last, in words; None until it is over."""
+        return self._nodes.self_test_result
+
+    def stay_at_surface(self, time: float) -> None:
+        """Stay at the surface for so long after each dive [s], until another mission is adopted."""
+        orders = self.pilot.orders
+        if orders is not None:
+            dives = orders.dives._replace(
+                surface_time=time, longest_surface_time=max(time, orders.dives.longest_surface_time)
+            )
+            self.pilot.orders = orders._replace(dives=dives)
+
+    def aim_at(self, waypoint: int) -> str:
+        """Aim at another waypoint of the mission, by its number; why not, in words, or nothing."""
+        memory, orders = self.pilot.memory, self.pilot.orders
+        if memory is None or orders is None:
+            return "the vehicle does not know its position yet"
+        if not 0 <= waypoint < len(orders.waypoints):
+            return f"waypoint {waypoint}: must be between 0 and {len(orders.waypoints) - 1}"
+        memory["waypoint"], memory["until_guidance"] = waypoint, 0
+        memory["line_latitude"], memory["line_longitude"] = memory["latitude"], memory["longitude"]
+        return ""
 
     def adopt(self, orders: Orders, expires: float = float("inf"), mission: int = 0) -> None:
         """Take the orders of a mission that has been validated, and fly them until a time [s].
@@ -112,7 +145,7 @@ class Coordinator:
         before = self._before
         taken_up = mission == before.mission and before.starts > 0
         self.pilot.adopt(orders, *((before.waypoint, before.energy_used) if taken_up else ()))
-        self.expires, self._mission = expires, mission
+        self.expires, self.mission = expires, mission
 
     def step(
         self, t: float, frames: Iterable[Frame], bytes_in: Mapping[str, bytes]
@@ -188,10 +221,10 @@ class Coordinator:
         last, memory, executive = self._store.kept, self.pilot.memory, view.executive
         standing = standing_alarms(view.safety) if view.safety.active else ()
         waypoint, used = last.waypoint, last.energy_used
-        if memory is not None and (self._mission != last.mission or executive.surfaced != self._was_surfaced):
+        if memory is not None and (self.mission != last.mission or executive.surfaced != self._was_surfaced):
             waypoint, used = int(memory["waypoint"]), max(0.0, float(memory["energy_used"]))
         self._was_surfaced = executive.surfaced
-        kept = Continuity(self._before.starts + 1, executive.started, standing, self._mission, waypoint, used)
+        kept = Continuity(self._before.starts + 1, executive.started, standing, self.mission, waypoint, used)
         self._store.keep(kept)
 
     def _hear(self, t: float, bytes_in: Mapping[str, bytes]) -> None:
@@ -212,7 +245,7 @@ class Coordinator:
             depth = seen.value("Depth", "depth", float("nan"))
             for outcome in self.gnss.take(bytes_in[GNSS], t, depth):
                 if isinstance(outcome, Fix):
-                    self._fix_sigma = outcome.sigma
+                    self.fix, self._fix_sigma = outcome, outcome.sigma
                     seen.take_fix(outcome.t - outcome.age, outcome.latitude, outcome.longitude)
         self.radio.take(bytes_in.get(RADIO, b""), t)
 

@@ -23,6 +23,9 @@ class NodesControl:
     sender: CommandSender
     drives_proven: tuple[bool, bool, bool] = (False, False, False)
     """Whether oil, moving mass and steering passed the motion node's self-test."""
+    self_test_result: str | None = None
+    """Drives that did not follow in the last self-test that was asked for, in words; None until it is over."""
+    _test_asked: bool = False
     _asked: dict[tuple[int, str], float] = field(default_factory=dict)
     _restarts: int = 0
     _tested_for_dive: bool = False
@@ -46,12 +49,19 @@ class NodesControl:
                 self._ask(node, "Start", t)
         if watch.state_of(MOTION) == NodeState.Safe and state.state is State.START_UP:
             self._ask(MOTION, "ClearFault", t)  # an abort of before is over
+        if self._test_asked:
+            self._test_asked = False
+            self.sender.send(MOTION, "SelfTest", 0, t)
         if dives_soon and not self._tested_for_dive:
             self.sender.send(MOTION, "SelfTest", 0, t)
         self._tested_for_dive = dives_soon
         if state.self_test:
             self._ask(MOTION, "SelfTest", t)
         return self.sender.poll(t)
+
+    def ask_self_test(self) -> None:
+        """Have the motion node test itself at the next step."""
+        self._test_asked, self.self_test_result = True, None
 
     def outcomes(self) -> list[Outcome]:
         """Return what became of commands since the last call."""
@@ -64,6 +74,8 @@ class NodesControl:
                     not found & (wrong[0] | ALL_WRONG), not found & (wrong[1] | ALL_WRONG),
                     not found & (wrong[2] | ALL_WRONG),
                 )  # fmt: skip
+                names = zip(("pump or valve", "moving mass", "steering"), self.drives_proven, strict=True)
+                self.self_test_result = ", ".join(name for name, proven in names if not proven)
         return outcomes
 
     def clear_faults(self, t: float) -> None:

@@ -31,6 +31,8 @@ class CoordinatorSettings:
     navigation: NavigationErrors = field(default_factory=NavigationErrors)
     usable_energy: float | None = None
     """Energy of the charged battery that may be taken [J]; None where nobody said."""
+    mean_power_over: float = 14_400.0
+    """Time over which the mean power is taken [s]."""
     schedule: PowerSchedule = field(default_factory=PowerSchedule)
     kind: NodeKind = field(default_factory=lambda: NodeKind(1, (0, 1, 0)))
     """Of this computer."""

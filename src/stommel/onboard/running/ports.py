@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from stommel.errors import StommelError
-from stommel.instruments.serial_port import PortSettings, SerialPort
 from stommel.messages.bus import CanBus
+from stommel.messages.serial_port import PortSettings, SerialPort
 from stommel.onboard.coordination.config import Configuration
 from stommel.onboard.coordination.coordinator import PORTS
 

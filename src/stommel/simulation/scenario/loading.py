@@ -18,6 +18,9 @@ from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle import Vehicle, load_vehicle
 
+_ONLY_IN_THE_LOOP = {"faults": "can break", "radio": "has a radio"}
+"""Tables of a scenario that a mission file must not have, and why."""
+
 
 def load_mission(path: str | Path) -> Mission:
     """Read a mission file, its vehicle and its ocean, and check them against each other.
@@ -43,9 +46,10 @@ def mission_from(
 
     `vehicle` and `ocean`, already loaded, stand in for the file's own.
     """
-    if "faults" in document:
-        told = "faults: only the software in the loop can break; fly this file with `stommel sitl`, or take them out"
-        raise FileError([Problem(origin, "faults", told)])
+    for key, words in _ONLY_IN_THE_LOOP.items():
+        if key in document:
+            told = f"{key}: only the software in the loop {words}; fly this file with `stommel sitl`, or take it out"
+            raise FileError([Problem(origin, key, told)])
     document = with_its_plan(document, origin, folder)
     scenario = validated(document, ScenarioFile, origin)
     if vehicle is None:

@@ -1,5 +1,6 @@
 """A configuration that was read: the settings of the software's parts, SI units and radians."""
 
+from contextlib import suppress
 from dataclasses import dataclass
 from math import radians
 from pathlib import Path
@@ -13,7 +14,7 @@ from stommel.messages.adapters import Adapter, BusError
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.compass.calibration_file import read_calibration
 from stommel.onboard.coordination.compass.compensation import Masking
-from stommel.onboard.coordination.config.tables import ConfigurationFile
+from stommel.onboard.coordination.config.configuration_file import ConfigurationFile
 from stommel.onboard.coordination.limits import ActuatorLimits, SafetyLimits
 from stommel.onboard.coordination.logbook.logbook import LogSettings
 from stommel.onboard.coordination.navigation import NavigationErrors
@@ -86,6 +87,7 @@ class Configuration:
             has_drop_weight=file.positions.drop_weight,
             navigation=self.navigation,
             usable_energy=self.usable_energy,
+            mean_power_over=3600.0 * file.power.mean_over_hours,
             schedule=self.schedule,
             has_altimeter=file.positions.altimeter,
             declination=radians(file.compass.declination_deg),
@@ -153,17 +155,32 @@ def read_configuration(path: str | Path) -> Configuration:
         adapter = Adapter(file.can.interface, file.can.channel, file.can.bitrate)
     except BusError as error:
         raise FileError([Problem(str(path), "can", str(error))]) from None
-    name = file.compass.calibration
-    calibration = CompassCalibration() if name is None else _calibration(str(path), folder / name)
-    return Configuration(file, folder, calibration, adapter, str(path))
+    return Configuration(file, folder, _calibration(file, Path(path)), adapter, str(path))
 
 
-def _calibration(origin: str, path: Path) -> CompassCalibration:
-    """Read the calibration that a configuration names; what cannot be read is said to be named there."""
+def _calibration(file: ConfigurationFile, path: Path) -> CompassCalibration:
+    """Read the calibration that a configuration names; what cannot be used is said to be named there."""
+    name, key = file.compass.calibration, "compass.calibration"
+    if name is None:
+        return CompassCalibration()
+    named = path.parent / name
+    if _is_one(named, path):
+        why = "is this file itself; must be one of `stommel vehicle calibrate-compass`"
+        raise FileError([Problem(str(path), key, f"{key} = {name!r}: {why}")])
     try:
-        return read_calibration(path)
+        calibration = read_calibration(named)
     except FileError as error:
-        named = Problem(
-            origin, "compass.calibration", f"compass.calibration = {path.name!r}: cannot be used, see below"
-        )
-        raise FileError([named, *error.problems]) from None
+        here = Problem(str(path), key, f"{key} = {name!r}: cannot be used, see below")
+        raise FileError([here, *error.problems]) from None
+    low, high = file.safety.least_field_ut, file.safety.greatest_field_ut
+    if not calibration.strength[0] < high or not low < calibration.strength[1]:
+        believed = f"it believes fields of {calibration.strength[0]:g} to {calibration.strength[1]:g} uT"
+        why = f"{believed}; safety has {low:g} to {high:g}: no heading would be good"
+        raise FileError([Problem(str(path), key, f"{key} = {name!r}: {why}")])
+    return calibration
+
+
+def _is_one(path: Path, other: Path) -> bool:
+    with suppress(OSError):
+        return path.samefile(other)
+    return False

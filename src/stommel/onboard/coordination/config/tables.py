@@ -1,16 +1,30 @@
-"""The tables of a vehicle's configuration, each key with its unit and its range."""
+"""The tables of a vehicle's configuration, each key with its unit and its range.
 
+What the tables must be to each other is with the whole file (`configuration_file`).
+"""
+
+from pathlib import PureWindowsPath
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
 
-from stommel.files.fields import Name, Table
-from stommel.files.kinds import Flag, Format
-from stommel.files.ranges import Hours, Position, Seconds, Share, Voltage, between
+from stommel.files.fields import Table
+from stommel.files.kinds import OWN_WORDS, Flag
+from stommel.files.ranges import Hours, Position, Voltage, between
 from stommel.files.sentences import PRINTABLE
-from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits
+
+
+def _within(name: str) -> str:
+    """Refuse a folder that lies elsewhere, by the rules of any system."""
+    path = PureWindowsPath(name)
+    if path.anchor or ".." in path.parts:
+        raise PydanticCustomError(OWN_WORDS, "must be a folder beside this file, no path from / on and none with ..")
+    return name
+
 
 FileName = Annotated[str, Field(min_length=1, max_length=300, pattern=PRINTABLE)]
+FolderName = Annotated[FileName, AfterValidator(_within)]
 PortName = Annotated[str, Field(min_length=1, max_length=200, pattern=PRINTABLE)]
 Baud = Literal[1200, 2400, 4800, 9600, 19_200, 38_400, 57_600, 115_200, 230_400, 460_800, 921_600]
 Interval = Annotated[float, between(0.1, 3600)]
@@ -54,8 +68,8 @@ class CompassPort(Table):
     """Serial port, as the operating system names it."""
     baud: Baud = 38_400
     """Bits per second."""
-    interval_s: Annotated[float, between(0.1, 60)] = 1.0
-    """Between two readings."""
+    interval_s: Annotated[float, between(0.1, 3)] = 1.0
+    """Between two readings; after 3.5 s without one the compass counts as silent."""
     calibration: FileName | None = None
     """File of `stommel vehicle calibrate-compass`, beside this one. Without it the field is taken as it is, and the
     heading is held while an actuator runs."""
@@ -78,8 +92,8 @@ class GnssPort(Table):
     """What the receiver is told to send."""
     receiver_port: Annotated[str, Field(pattern=r"^[A-Za-z]\w*$", max_length=20)] = "COM1"
     """Port of the receiver at which the vehicle is."""
-    interval_s: Annotated[float, between(0.05, 60)] = 1.0
-    """Between two positions."""
+    interval_s: Annotated[float, between(0.05, 2)] = 1.0
+    """Between two positions; one that is older than 2 s is not believed."""
 
 
 class RadioPort(Table):
@@ -91,6 +105,10 @@ class RadioPort(Table):
     """Bits per second."""
 
 
+_DISCHARGED = 0.25
+"""Share of a battery's greatest voltage below which it is no battery."""
+
+
 class Safety(Table):
     """Numbers that the failsafes and start checks hold readings against."""
 
@@ -98,7 +116,7 @@ class Safety(Table):
     """Deeper than this the vehicle is under water, waves or not."""
     longest_submerged_hours: Hours
     """Time under water after which control has failed to bring it up: its own limit, and time to climb."""
-    turning_time_s: Seconds
+    turning_time_s: Annotated[float, between(10, 86400)]
     """Longest time that a sound engine takes from a dive's ballast to a climb's, and the vehicle to turn."""
     least_voltage_v: Voltage
     """Below it there is no more dive."""
@@ -128,13 +146,17 @@ class Safety(Table):
             low, high = getattr(self, lower), getattr(self, upper)
             if not low < high:
                 raise ValueError(f"{lower} = {low:g}: must be less than {upper} = {high:g}")
+        least = _DISCHARGED * self.greatest_voltage_v
+        if self.lowest_voltage_v < least:
+            allowed = f"at least {least:g} V, a quarter of greatest_voltage_v: no battery gives less and works"
+            raise ValueError(f"lowest_voltage_v = {self.lowest_voltage_v:g}: must be {allowed}")
         return self
 
 
 class Log(Table):
     """The vehicle's log."""
 
-    folder: FileName = "log"
+    folder: FolderName = "log"
     """Where it is kept, beside this file."""
     total_mib: Annotated[float, between(0.1, 1e6)] = 1024.0
     """Of all files together; the oldest that were sent ashore go first."""
@@ -175,7 +197,7 @@ class Power(Table):
     """Phases in which the compass measures only as often as the controller decides."""
     gps_in: tuple[PhaseName, ...] = ("surface", "recovery")
     """Phases in which GPS has power; elsewhere it hears nothing."""
-    reserve: Share = 0.1
+    reserve: Annotated[float, between(0, 0.9)] = 0.1
     """Part of the battery's energy that is kept."""
     mean_over_hours: Hours = 4.0
     """Time over which the mean power is taken, for the estimate of the hours left."""
@@ -203,56 +225,3 @@ class Navigation(Table):
     """After which time."""
     fix_m: Annotated[float, between(0.01, 1000)] = 10.0
     """Of a position by GPS that does not say so itself, each of north and east."""
-
-
-class ConfigurationFile(Table):
-    """A vehicle's software."""
-
-    format: Format
-    kind: Literal["vehicle configuration"]
-    vehicle: Name
-    """Name of the vehicle."""
-    vehicle_id: Annotated[int, Field(strict=True, ge=1, le=250)]
-    """Number of the vehicle on the radio; each of a fleet has its own."""
-    missions: FileName = "missions"
-    """Folder of the missions that were received, beside this file."""
-    parameters: FileName = "parameters"
-    """Folder of the parameters and of what must outlive a restart."""
-    sample_every_s: Interval = 10.0
-    """Between two samples of the CTD, which is on the acquisition node."""
-    limits: VehicleLimits
-    positions: Positions
-    can: CanPort = CanPort()
-    compass: CompassPort
-    gnss: GnssPort
-    radio: RadioPort
-    safety: Safety
-    log: Log = Log()
-    power: Power = Power()
-    navigation: Navigation = Navigation()
-
-    @model_validator(mode="after")
-    def _mass_stays_within_its_travel(self) -> Self:
-        low, high = self.limits.moving_mass_mm
-        for name in ("nose_up_mm", "surface_mm", "calling_mm"):
-            value = getattr(self.positions, name)
-            if not low <= value <= high:
-                raise ValueError(
-                    f"positions.{name} = {value:g}: must be between {low:g} and {high:g} mm, the ends of "
-                    "limits.moving_mass_mm"
-                )
-        ports = {table: getattr(self, table).port for table in ("compass", "gnss", "radio")}
-        for table, port in ports.items():
-            others = [other for other in ports if other != table and ports[other] == port]
-            if others:
-                raise ValueError(f"{table}.port = {port!r}: is that of {others[0]} too; each needs a port of its own")
-        return self
-
-    @model_validator(mode="after")
-    def _log_has_room(self) -> Self:
-        least = 6.0 * self.log.file_mib
-        if self.log.total_mib < least:
-            raise ValueError(
-                f"log.total_mib = {self.log.total_mib:g}: must be at least {least:g}, six times log.file_mib"
-            )
-        return self

@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from stommel.files.docstrings import attribute_docstrings
-from stommel.onboard.coordination.config.tables import ConfigurationFile
+from stommel.onboard.coordination.config.configuration_file import ConfigurationFile
 
 _WIDTH = 100
 _HEAD = (

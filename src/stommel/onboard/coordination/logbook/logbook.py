@@ -65,7 +65,7 @@ class Logbook:
     """The log that is being written; begins new files, and never touches those of before but to remove them."""
 
     def __init__(self, storage: Storage, settings: LogSettings, identity: LogIdentity, t: float) -> None:
-        self._storage, self._settings, self._identity = storage, settings, identity
+        self.storage, self._settings, self._identity = storage, settings, identity
         self._sizes: dict[str, int] = {}
         self.restarts = 0
         """How often a log was begun here before."""
@@ -85,7 +85,7 @@ class Logbook:
     def _list(self) -> bool:
         """Look what is there, and take the next run; False while the disk does not answer."""
         try:
-            sizes = self._storage.sizes()
+            sizes = self.storage.sizes()
         except OSError:
             return False
         self._sizes = {name: size for name, size in sizes.items() if log_name(name)}
@@ -158,9 +158,9 @@ class Logbook:
         """A file that the disk refused to go on with stays for what is in it; without any record it only takes room."""
         with suppress(OSError):
             if records:
-                self._sizes[name] = self._storage.sizes().get(name, 0)
+                self._sizes[name] = self.storage.sizes().get(name, 0)
                 return
-            self._storage.remove(name)
+            self.storage.remove(name)
             self._sizes.pop(name, None)
 
     def sync(self, t: float) -> None:
@@ -191,7 +191,7 @@ class Logbook:
             return False
         sent = name._replace(sent=True).text
         try:
-            self._storage.rename(name.text, sent)
+            self.storage.rename(name.text, sent)
         except OSError:
             return False
         self._sizes[sent] = self._sizes.pop(name.text)
@@ -229,7 +229,7 @@ class Logbook:
         if name is None:
             return 0
         try:
-            self._storage.remove(name.text)
+            self.storage.remove(name.text)
         except OSError:
             return 0
         size = self._sizes.pop(name.text)

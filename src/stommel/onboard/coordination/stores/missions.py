@@ -15,7 +15,7 @@ from typing import NamedTuple
 from stommel.control.orders import Orders
 from stommel.control.orders_file import OrdersHeader, parse_orders
 from stommel.errors import FileError, Problem, StommelError
-from stommel.onboard.coordination.stores.reception import Reception, ReceptionError
+from stommel.onboard.coordination.stores.reception_store import ReceptionStore
 from stommel.onboard.coordination.stores.replacing import replace_whole, sealed, unsealed
 from stommel.onboard.coordination.stores.storage import Storage
 from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits, refusals
@@ -46,7 +46,6 @@ class MissionStore:
     def __init__(self, storage: Storage, limits: VehicleLimits) -> None:
         self._storage = storage
         self._limits = limits
-        self._reception: Reception | None = None
         self._highest = 0
         self.notes: list[str] = []
         """What was found damaged or unfit when the store was opened, in words."""
@@ -57,6 +56,8 @@ class MissionStore:
         self.started: float | None = None
         """When the active one was started [s], by the clock that told."""
         self._open()
+        self._reception = ReceptionStore(storage)
+        self._discard_what_was_switched()
 
     # what is there
 
@@ -83,6 +84,12 @@ class MissionStore:
             self.notes.append(f"mission {self.active.number}, {self.active.header.mission}, is flown in its place")
         self.started = self._read_started()
 
+    def _discard_what_was_switched(self) -> None:
+        """Forget a reception whose mission is flown: the power went between the two."""
+        arriving = self._reception.reception
+        if arriving is not None and self.active is not None and arriving.sha256 == self.active.sha256:
+            self._reception.discard()
+
     def _read(self, number: int) -> StoredMission:
         name = _name(number)
         head, _, text = self._storage.read(name).partition(b"\n")
@@ -106,15 +113,14 @@ class MissionStore:
     # a mission arrives
 
     def announce(self, size: int, sha256: str) -> None:
-        """Begin to receive a mission of so many bytes; the same one again goes on where it was.
+        """Begin to receive a mission of so many bytes; the same one again goes on where it was, after a restart too.
 
         Raises
         ------
         ReceptionError
             No mission can have this size or hash.
         """
-        if self._reception is None or (self._reception.sha256, self._reception.size) != (sha256, size):
-            self._reception = Reception(size, sha256)
+        self._reception.announce(size, sha256)
 
     def take(self, offset: int, piece: bytes) -> None:
         """Take a piece of the mission that was announced.
@@ -124,17 +130,19 @@ class MissionStore:
         ReceptionError
             None was announced, or the piece lies outside of it.
         """
-        self._expected().take(offset, piece)
+        self._reception.take(offset, piece)
 
     @property
     def missing(self) -> list[tuple[int, int]]:
         """First byte and the one behind the last of every gap of the mission that is received."""
-        return [] if self._reception is None else self._reception.missing
+        arriving = self._reception.reception
+        return [] if arriving is None else arriving.missing
 
-    def _expected(self) -> Reception:
-        if self._reception is None:
-            raise ReceptionError("mission: none was announced")
-        return self._reception
+    @property
+    def announced(self) -> tuple[int, str] | None:
+        """Bytes and SHA-256 of the mission that is received, also after a restart; None if none is."""
+        arriving = self._reception.reception
+        return None if arriving is None else (arriving.size, arriving.sha256)
 
     def check(self) -> StoredMission:
         """The mission that was received, held against the vehicle; it is not flown yet.
@@ -146,7 +154,7 @@ class MissionStore:
         FileError
             It is no mission, or the vehicle cannot fly it: a problem for each limit that it breaks.
         """
-        return self._checked(self._highest + 1, self._expected().whole(), "mission")
+        return self._checked(self._highest + 1, self._reception.whole(), "mission")
 
     def switch(self) -> StoredMission:
         """Take the mission that was received in place of the one that is held, which becomes the previous one.
@@ -159,8 +167,8 @@ class MissionStore:
             The disk does not keep it; nothing has changed.
         """
         mission = self.check()
-        self._keep(mission, self._expected().whole())
-        self._reception = None
+        self._keep(mission, self._reception.whole())
+        self._reception.discard()
         return mission
 
     def roll_back(self) -> StoredMission:
@@ -173,15 +181,26 @@ class MissionStore:
         """
         if self.previous is None:
             raise MissionStoreError("mission: there is no previous one to roll back to")
-        try:
-            text = self._storage.read(_name(self.previous.number)).partition(b"\n")[2]
-        except OSError as error:
-            raise MissionStoreError(f"mission: cannot be read: {error.strerror or error}") from error
-        if hashlib.sha256(text).hexdigest() != self.previous.sha256:
-            raise MissionStoreError(f"mission {self.previous.number}: is damaged: its SHA-256 is another")
+        text = self.text(self.previous)
         mission = self.previous._replace(number=self._highest + 1)
         self._keep(mission, text)
         return mission
+
+    def text(self, mission: StoredMission) -> bytes:
+        """Orders file of a mission that is held, as it came.
+
+        Raises
+        ------
+        MissionStoreError
+            The disk has it no more, or has damaged it.
+        """
+        try:
+            text = self._storage.read(_name(mission.number)).partition(b"\n")[2]
+        except OSError as error:
+            raise MissionStoreError(f"mission: cannot be read: {error.strerror or error}") from error
+        if hashlib.sha256(text).hexdigest() != mission.sha256:
+            raise MissionStoreError(f"mission {mission.number}: is damaged: its SHA-256 is another")
+        return text
 
     def _keep(self, mission: StoredMission, text: bytes) -> None:
         try:

@@ -27,12 +27,19 @@ class Reception:
         self._missing = [(0, size)]
 
     @property
+    def held(self) -> list[tuple[int, bytes]]:
+        """Every run of bytes that are there, with its first byte's place."""
+        ends = [0, *(end for gap in self._missing for end in gap), self.size]
+        runs = zip(ends[::2], ends[1::2], strict=True)
+        return [(first, bytes(self._data[first:last])) for first, last in runs if first < last]
+
+    @property
     def missing(self) -> list[tuple[int, int]]:
         """First byte and the one behind the last of every gap."""
         return list(self._missing)
 
-    def take(self, offset: int, piece: bytes) -> None:
-        """Take a piece; one that comes again changes nothing.
+    def take(self, offset: int, piece: bytes) -> list[tuple[int, bytes]]:
+        """Take a piece, and return what was missing of it, with its place; one that comes again changes nothing.
 
         Raises
         ------
@@ -42,11 +49,16 @@ class Reception:
         end, size = offset + len(piece), len(self._data)
         if offset < 0 or end > size:
             raise ReceptionError(f"mission: piece of bytes {offset} to {end}: must lie within 0 to {size}")
-        self._data[offset:end] = piece
-        gaps = []
+        new, gaps = [], []
         for first, last in self._missing:
+            low, high = max(first, offset), min(last, end)
+            if low < high:
+                new.append((low, piece[low - offset : high - offset]))
             gaps += [(first, min(last, offset)), (max(first, end), last)]
         self._missing = [(first, last) for first, last in gaps if first < last]
+        for place, run in new:
+            self._data[place : place + len(run)] = run
+        return new
 
     def whole(self) -> bytes:
         """All bytes.

@@ -109,6 +109,19 @@ class SerialPort:
                 self._lose(error, t)
         return accepted
 
+    @property
+    def room(self) -> int:
+        """Bytes that find room to wait in; none while the port is away."""
+        return self.settings.buffer - len(self._waiting) if self.state is PortState.OPEN else 0
+
+    @property
+    def waiting(self) -> int:
+        """Bytes that were accepted and have not left, as far as the operating system says."""
+        try:
+            return len(self._waiting) + (self._port.out_waiting if self.state is PortState.OPEN else 0)
+        except (OSError, TypeError, AttributeError):  # a port that cannot say it
+            return len(self._waiting)
+
     def close(self) -> None:
         """Give the port back."""
         self._drop()

@@ -1,0 +1,1 @@
+"""The radio link: MAVLink 2 on both ends, without I/O."""

@@ -1,0 +1,1 @@
+"""A radio channel on virtual time, for tests, the simulated vehicle and training."""

@@ -1,0 +1,120 @@
+"""Takes files that the other end offers: fetches what is missing of them, and says when they are whole."""
+
+from typing import NamedTuple
+
+from stommel.errors import StommelError
+from stommel.link.files.fetching import Fetch
+from stommel.link.files.paths import plain_path
+from stommel.link.files.port import FilePort, FileRefusalError, FileResult, Part
+from stommel.link.files.values import octets, text, whole
+from stommel.link.outbox import Outbox
+from stommel.link.service import Received
+
+MOST_INCOMING = 4
+FORGOTTEN = 900.0
+"""An offer of which nothing was heard for so long is closed; what has come of it stays on the disk [s]."""
+_REMEMBERED = 16
+Key = tuple[tuple[int, int], int]
+"""System and component of whoever offers, and the number of the transfer."""
+
+
+class Outcome(NamedTuple):
+    """What became of an offer."""
+
+    result: FileResult
+    reason: str = ""
+
+
+class _Offer(NamedTuple):
+    path: str
+    size: int
+    sha256: bytes
+
+
+class _Incoming:
+    def __init__(self, offer: _Offer, part: Part, fetch: Fetch, t: float) -> None:
+        self.offer, self.part, self.fetch = offer, part, fetch
+        self.heard = t
+
+
+class Receiving:
+    """Offers of other ends, and what has come of them."""
+
+    def __init__(self, port: FilePort) -> None:
+        self._port = port
+        self._incoming: dict[Key, _Incoming] = {}
+        self._ended: dict[Key, tuple[_Offer, Outcome]] = {}
+        self.outcomes: list[tuple[Key, Outcome]] = []
+        """To be said; whoever says them takes them out."""
+
+    def offer(self, received: Received, t: float) -> None:
+        """Take FILE_OFFER: begin, or go on; what has ended says so again."""
+        key = ((received.system, received.component), whole(received, "transfer"))
+        offer = _Offer(text(received, "path"), whole(received, "size"), octets(received, "sha256"))
+        incoming, ended = self._incoming.get(key), self._ended.get(key)
+        if ended is not None and ended[0] == offer:
+            self.outcomes.append((key, ended[1]))
+        elif incoming is not None and incoming.offer == offer:
+            incoming.heard = t
+            incoming.fetch.wake()
+        else:
+            self._begin(key, offer, t)
+
+    def _begin(self, key: Key, offer: _Offer, t: float) -> None:
+        """Begin to receive; the same file under another number goes on under this one."""
+        for other, incoming in tuple(self._incoming.items()):
+            if other == key or incoming.offer.path == offer.path:
+                self._close(other)
+        if len(self._incoming) >= MOST_INCOMING:
+            self.outcomes.append((key, Outcome(FileResult.NO_ROOM, f"{MOST_INCOMING} files are received already")))
+            return
+        try:
+            part = self._port.receive(plain_path(offer.path), offer.size, offer.sha256)
+        except StommelError as error:
+            self._end(key, offer, _refusal(error))
+            return
+        self._incoming[key] = _Incoming(offer, part, Fetch(*key, part.missing, part), t)
+
+    def data(self, received: Received, t: float) -> None:
+        """Take FILE_DATA."""
+        key = ((received.system, received.component), whole(received, "transfer"))
+        incoming = self._incoming.get(key)
+        if incoming is None:
+            return
+        incoming.heard = t
+        try:
+            incoming.fetch.take(received, t)
+        except StommelError as error:
+            self._close(key)
+            self._end(key, incoming.offer, _refusal(error))
+
+    def poll(self, t: float, outbox: Outbox) -> None:
+        """Ask for what is missing, and end what is whole."""
+        for key, incoming in tuple(self._incoming.items()):
+            try:
+                incoming.part.rest(t)
+                if incoming.fetch.is_whole:
+                    del self._incoming[key]
+                    incoming.part.finish()
+                    self._end(key, incoming.offer, Outcome(FileResult.OK))
+                elif t - incoming.heard > FORGOTTEN:
+                    self._close(key)
+                else:
+                    incoming.fetch.poll(t, outbox)
+            except StommelError as error:
+                self._incoming.pop(key, None)
+                self._end(key, incoming.offer, _refusal(error))
+
+    def _close(self, key: Key) -> None:
+        self._incoming.pop(key).part.close()
+
+    def _end(self, key: Key, offer: _Offer, outcome: Outcome) -> None:
+        self._ended.pop(key, None)
+        self._ended[key] = (offer, outcome)
+        while len(self._ended) > _REMEMBERED:
+            del self._ended[next(iter(self._ended))]
+        self.outcomes.append((key, outcome))
+
+
+def _refusal(error: StommelError) -> Outcome:
+    return Outcome(error.result if isinstance(error, FileRefusalError) else FileResult.FAILED, str(error))

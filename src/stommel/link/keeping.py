@@ -1,0 +1,52 @@
+"""Small files that are replaced as a whole, and know when they are damaged."""
+
+import hashlib
+import json
+from typing import Any
+
+from stommel.link.storage import Storage, replace_whole
+
+MOST_BYTES = 1 << 20
+"""That are read of such a file."""
+
+
+class DamagedError(ValueError):
+    """A file is there, and is not what was kept."""
+
+
+def keep(storage: Storage, name: str, content: object) -> None:
+    """Bring what JSON can say to the disk under a name: whole, or not at all.
+
+    Raises
+    ------
+    OSError
+        The disk does not keep it; what stood under the name still does.
+    """
+    told = json.dumps(content, separators=(",", ":"), allow_nan=False).encode()
+    replace_whole(storage, name, _digest(told) + b" " + told)
+
+
+def kept(storage: Storage, name: str) -> Any:
+    """Return what was kept under a name; None if nothing ever was.
+
+    Raises
+    ------
+    DamagedError
+        It cannot be read, or is damaged.
+    """
+    try:
+        digest, _, told = storage.read(name)[:MOST_BYTES].partition(b" ")
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise DamagedError(f"{name}: cannot be read: {error.strerror or error}") from error
+    if digest != _digest(told):
+        raise DamagedError(f"{name}: is damaged: its SHA-256 is another")
+    try:
+        return json.loads(told)
+    except (ValueError, RecursionError) as error:
+        raise DamagedError(f"{name}: is damaged: {error}") from error
+
+
+def _digest(told: bytes) -> bytes:
+    return hashlib.sha256(told).hexdigest().encode()

@@ -1,0 +1,1 @@
+"""Parameters over the link: standard messages for all software, digests for ours."""

@@ -1,0 +1,1 @@
+"""Who may speak: signatures, time stamps, keys and their change; all checks of a frame meet in the guard."""

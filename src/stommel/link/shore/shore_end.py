@@ -96,7 +96,11 @@ class ShoreEnd:
         self.session.take(data, t)
 
     def poll(self, t: float, room: int) -> bytes:
-        """Return at most so many bytes to send."""
+        """Return at most so many bytes to send; transfers rest while the vehicle is not heard, and go on when it is."""
+        heard = self.is_heard(t)
+        for transfer in self._passing:
+            if isinstance(transfer, Download | Upload) and heard == transfer.is_paused and not transfer.state.is_over:
+                transfer.resume(t) if heard else transfer.pause()
         return self.session.poll(t, room)
 
     def is_heard(self, t: float) -> bool:

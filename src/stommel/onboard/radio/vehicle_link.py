@@ -70,6 +70,8 @@ class VehicleLink:
         More of them.
     restart
         Starts the software anew; None where nobody would.
+    bench
+        Whether this is the port at which whoever speaks is at the vehicle, and believed.
     """
 
     def __init__(
@@ -85,13 +87,16 @@ class VehicleLink:
         files: FilePort,
         services: tuple[Service, ...] = (),
         restart: Callable[[], None] | None = None,
+        *,
+        bench: bool = False,
     ) -> None:
         self._coordinator, self.guard, self._utc = coordinator, guard, utc
         self._missions, self._fly = missions, fly
+        coordinator.key_alarm = guard.alarm
         self._seen: Observed | None = None
         me = settings.system, VEHICLE_COMPONENT
         rate = LineRate(settings.bit_rate, half_duplex=settings.half_duplex)
-        self.session = Session(*me, (), PortGuard(guard), rate)
+        self.session = Session(*me, (), PortGuard(guard, int(bench), bench), rate)
         self.presence, self.time_sync = Presence(), TimeSync(utc)
         self.telemetry, self._reports = Telemetry(), DiveReports()
         port = VehicleCommands(coordinator, missions, restart)
@@ -116,7 +121,8 @@ class VehicleLink:
         ]
 
     def observe(self, t: float) -> None:
-        """Look at what the coordinator has decided at a time [s]."""
+        """Look at what the coordinator has decided at a time [s]; it learns how the key is."""
+        self._coordinator.key_alarm = self.guard.alarm
         seen = observe(self._coordinator, self._utc(t))
         if seen is not None:
             self._seen = seen

@@ -12,8 +12,8 @@ BITS = (
     "node of another version", "unknown node", "silent pressure sensor", "pressure sensor stuck", "blind, last resort",
     "silent compass", "silent GPS", "silent CTD", "silent altimeter", "silent leak detector", "silent hull pressure",
     "silent battery gauge", "silent displacement sensor", "silent mass position", "silent steering angle",
-    "hull pressure of the mission", "vacuum loss", "hull flooding", "software exception", "software exceptions in a row",
-    "node restarted", "log not written", "unproven safety input", "radio key",
+    "hull pressure of the mission", "vacuum loss", "hull flooding", "software exception",
+    "software exceptions in a row", "node restarted", "log not written", "unproven safety input", "radio key",
 )  # fmt: skip
 """What each bit means, from the lowest on: new ones are put at the end, none is ever taken out."""
 

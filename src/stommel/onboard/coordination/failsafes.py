@@ -352,7 +352,7 @@ FAILSAFES = (
         60.0, R.REPORT, C.SELF, 60.0, "SoftwareException", "make room on the disk, or change it",
     ),
     Failsafe(
-        "radio key", "the radio's key or its time stamps are missing, damaged or not kept: commands are refused", "link",
+        "radio key", "nothing by radio is believed, or not safely: key or time stamps are missing or damaged", "link",
         lambda now, *_: now.key_alarm,
         0.0, R.REPORT, C.SELF, 0.0, "Unproven", "put the key in place (stommel link key), start the software anew",
     ),

@@ -104,9 +104,10 @@ class VehicleLink:
         self.statistics = Statistics(
             self.session, self.time_sync, surface_time_left=self._surface_time_left, refusals=guard.refusals
         )
+        self.key_answer = KeyAnswer(guard, random)
         self.session.services = [
             Challenge(guard),
-            KeyAnswer(guard, random),
+            self.key_answer,
             self.presence,
             self.time_sync,
             self.commands,
@@ -139,6 +140,15 @@ class VehicleLink:
     def poll(self, t: float, room: int) -> bytes:
         """Return at most so many bytes for the radio to send."""
         return self.session.poll(t, room)
+
+    def rest(self, t: float) -> None:
+        """Let time pass while the radio is off: commands expire, and those for the next surfacing see the dive."""
+        self.commands.poll(t, self.session.outbox)
+
+    @property
+    def notes(self) -> list[str]:
+        """What there is to say to whoever reads the log."""
+        return [*self.guard.status, *self.session.notes, *self.commands.notes, *self.key_answer.notes]
 
     def _surface_time_left(self) -> float:
         return float("nan") if self._seen is None else surface_time_left(self._seen)

@@ -35,7 +35,8 @@ def run(
     supervised: Annotated[
         bool,
         typer.Option(
-            "--supervised", help="Something starts this program again when it ends: the shore may ask for it (status 75)."
+            "--supervised",
+            help="Something starts this program again when it ends: the shore may ask for it (status 75).",
         ),
     ] = False,
     seconds: Annotated[

@@ -92,6 +92,7 @@ class VehicleLink:
     ) -> None:
         self._coordinator, self.guard, self._utc = coordinator, guard, utc
         self._missions, self._fly = missions, fly
+        self._bench = bench
         coordinator.key_alarm = guard.alarm
         self._seen: Observed | None = None
         me = settings.system, VEHICLE_COMPONENT
@@ -148,7 +149,8 @@ class VehicleLink:
     @property
     def notes(self) -> list[str]:
         """What there is to say to whoever reads the log."""
-        return [*self.guard.status, *self.session.notes, *self.commands.notes, *self.key_answer.notes]
+        key = [] if self._bench else self.guard.status
+        return [*key, *self.session.notes, *self.commands.notes, *self.key_answer.notes]
 
     def _surface_time_left(self) -> float:
         return float("nan") if self._seen is None else surface_time_left(self._seen)

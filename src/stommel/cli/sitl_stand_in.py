@@ -33,6 +33,15 @@ def stand_in(
         str, typer.Option("--channel", metavar="ADDRESS", help="Multicast address of the CAN bus.")
     ] = "239.74.163.2",
     link: LinkOption = None,
+    parameters: Annotated[
+        Path | None,
+        typer.Option(
+            "--parameters",
+            metavar="FOLDER",
+            parser=folder_parser("--parameters"),
+            help="Folder in which the nodes keep their parameters; without it they forget them.",
+        ),
+    ] = None,
     seconds: Annotated[float | None, number_option("--seconds", 1.0, LONGEST, "s", "Stop after this time")] = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -52,7 +61,7 @@ def stand_in(
     with connected(link) as shore:
         bus = CanBus(Adapter("udp_multicast", channel, keys="--"))
         try:
-            stood_in = StandIn(mission, bus, ports, radio=radio, shore=shore)
+            stood_in = StandIn(mission, bus, ports, radio=radio, shore=shore, parameters=parameters)
         except BaseException:
             bus.close()
             raise
@@ -64,6 +73,8 @@ def _stood(stood_in: "StandIn", seconds: float | None) -> dict[str, Any]:
     from stommel.cli.vehicle_run import until_asked
 
     with stood_in, until_asked() as asked:
+        for note in stood_in.system.notes:
+            typer.echo(f"note: {note}", err=True)
         for name, path in stood_in.terminals.paths.items():
             typer.echo(f"{name}: {path}", err=True)
         stood_in.run(LONGEST if seconds is None else seconds, asked)

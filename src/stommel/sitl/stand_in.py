@@ -15,7 +15,7 @@ from stommel.errors import StommelError
 from stommel.link.channel.settings import ChannelSettings
 from stommel.messages.bus import CanBus
 from stommel.messages.frames import Frame
-from stommel.onboard.coordination.coordinator import PORTS, RADIO
+from stommel.onboard.coordination.own_instruments import PORTS, RADIO
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
 from stommel.onboard.execution.motion_node import MotionNode
 from stommel.simulation.scenario.mission import Mission
@@ -160,6 +160,8 @@ class StandIn:
         Whoever is at the other end of the radio; nobody if left out.
     clock, sleep
         Of the computer.
+    parameters
+        Folder in which the nodes keep their parameters; None: they forget them with this object.
     """
 
     def __init__(
@@ -171,8 +173,9 @@ class StandIn:
         sleep: Callable[[float], None] = time.sleep,
         radio: ChannelSettings | None = None,
         shore: End | None = None,
+        parameters: Path | None = None,
     ) -> None:
-        self.system = System(mission)
+        self.system = System(mission, parameters=parameters)
         self.terminals = Terminals(folder, PORTS)
         self._bus, self._clock, self._sleep = bus, clock, sleep
         self._pace = Pace(1.0, clock, sleep)

@@ -133,6 +133,8 @@ class VehicleLink:
 
     def take(self, data: bytes, t: float) -> None:
         """Take bytes that the radio has received until a time [s]; a mission that came is flown from here on."""
+        if not self._bench:
+            self._coordinator.instruments.radio.take(data, t)  # health tells when the shore was last heard
         self.session.take(data, t)
         store = self._missions.opened
         if store is not None and store.active is not None and store.active.number != self._coordinator.mission:

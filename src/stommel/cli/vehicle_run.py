@@ -119,7 +119,7 @@ def _show(row: dict[str, Any]) -> None:
             "one decision": f"{row['mean_step_ms']:.1f} ms (mean), {row['longest_step_ms']:.1f} ms at most",
             "late": str(row["late_steps"]),
             "failed": str(row["failed_steps"]),
-            "link": f"{row['link_failures']} failures",
+            "link failures": str(row["link_failures"]),
             **({"restart": "asked for by the shore"} if row["start_again"] else {}),
         },
     )

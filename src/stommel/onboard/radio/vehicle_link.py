@@ -1,6 +1,7 @@
 """The vehicle's end of the link: every service, bound to the coordinator."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 from stommel.link.commands.identity import Identity
@@ -27,7 +28,7 @@ from stommel.onboard.radio.dive_reports import DiveReports
 from stommel.onboard.radio.mission_port import MissionPort
 from stommel.onboard.radio.observed import Observed, observe
 from stommel.onboard.radio.shore_clock import ShoreClock
-from stommel.onboard.radio.telemetry import Telemetry
+from stommel.onboard.radio.telemetry import WARNING, Telemetry
 from stommel.onboard.radio.telemetry_table import surface_time_left
 from stommel.version import __version__
 
@@ -87,7 +88,7 @@ class VehicleLink:
         restart: Callable[[], None] | None = None,
     ) -> None:
         self._coordinator, self.guard, self._utc = coordinator, guard, utc
-        self._missions, self._fly = missions, fly
+        self.missions, self._fly = missions, fly
         self._seen: Observed | None = None
         me = settings.system, VEHICLE_COMPONENT
         rate = LineRate(settings.bit_rate, half_duplex=settings.half_duplex)
@@ -99,15 +100,16 @@ class VehicleLink:
         self.statistics = Statistics(
             self.session, self.time_sync, surface_time_left=self._surface_time_left, refusals=guard.refusals
         )
+        warn = partial(self.telemetry.tell, WARNING)
         self.session.services = [
             Challenge(guard),
             KeyAnswer(guard, random),
             self.presence,
             self.time_sync,
             self.commands,
-            StandardCommands(*me, port, self.telemetry, Identity(__version__), self.commands.abort_came),
+            StandardCommands(*me, port, self.telemetry, Identity(__version__), self.commands.abort_came, warn),
             OrdersServer(*me, missions, missions),
-            WaypointServer(*me, missions),
+            WaypointServer(*me, missions, warn),
             *services,
             self.telemetry,
             self._reports,
@@ -126,7 +128,7 @@ class VehicleLink:
     def take(self, data: bytes, t: float) -> None:
         """Take bytes that the radio has received until a time [s]; a mission that came is flown from here on."""
         self.session.take(data, t)
-        store = self._missions.opened
+        store = self.missions.opened
         if store is not None and store.active is not None and store.active.number != self._coordinator.mission:
             self._fly(store.active)
 

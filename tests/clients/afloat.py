@@ -10,7 +10,6 @@ import pytest
 
 from stommel.dynamics.state import X_EAST, X_NORTH
 from stommel.link.parameters.server import ParameterServer
-from stommel.link.signing.guard import Guard
 from stommel.link.transports.opening import open_transport
 from stommel.link.transports.transport import TransportError
 from stommel.onboard.coordination.view import View
@@ -51,8 +50,6 @@ session_s = 1800
 [ocean]
 name = "south_china_sea"
 """
-
-
 
 
 class _EndedError(Exception):

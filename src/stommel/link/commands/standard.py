@@ -190,7 +190,8 @@ class StandardCommands:
         command = Command(self._count, number, tuple(given), When.AT_ONCE, 0, 0)
         answer = self._port.check(command)
         if answer.readiness is not Readiness.READY:
-            self._tell(f"command {number} refused: {answer.words}")
+            if answer.words:
+                self._tell(f"command {number} refused: {answer.words}")
             return ("TEMPORARILY_REJECTED" if answer.readiness is Readiness.NOT_YET else "DENIED"), 0
         if number == ABORT:
             self._abort_came(t)

@@ -81,9 +81,7 @@ def heartbeat(seen: Observed) -> Fields:
     }
 
 
-def _velocity(
-    memory: np.record, navigation: NavigationEstimate, psi: float
-) -> tuple[float, float, float]:
+def _velocity(memory: np.record, navigation: NavigationEstimate, psi: float) -> tuple[float, float, float]:
     """Over ground to the north, to the east, and down, by dead reckoning [m/s]."""
     speed, down = float(memory["path_speed"]), float(memory["vertical_speed"])
     level = math.sqrt(max(0.0, speed * speed - down * down))

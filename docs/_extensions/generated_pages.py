@@ -39,8 +39,8 @@ from stommel.files.table_keys import models_in
 from stommel.files.units import unit_of
 from stommel.onboard.coordination.compass.calibration_file import CalibrationFile
 from stommel.onboard.coordination.config.configuration_file import ConfigurationFile
-from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
-from stommel.onboard.execution.motion_settings import MotionSettings
+from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
+from stommel.onboard.nodes.motion_settings import MotionSettings
 from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle.schema import VehicleFile
 

@@ -12,8 +12,8 @@ from matplotlib.patches import FancyArrowPatch
 
 from stommel.figures.saving import svg_text
 from stommel.messages.parameters import ParameterType
-from stommel.onboard.execution.node_settings import NodeSettings, parameters_of
 from stommel.onboard.execution.node_states import STATES, TRANSITIONS, Event, Mode
+from stommel.onboard.nodes.node_settings import NodeSettings, parameters_of
 
 _BEFORE = "what it was before"
 

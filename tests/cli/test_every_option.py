@@ -340,8 +340,9 @@ CASES: dict[str, dict[str, Case]] = {
 }  # fmt: skip
 
 ELSEWHERE = {
-    "sitl fly": "tests/sitl: --log, --output, --plots, --track, --seed, --separate-nodes, --speed, --no-live",
-    "sitl stand-in": "tests/sitl/test_real_ports.py: --ports, --channel, --seconds",
+    "sitl fly": "tests/sitl: --log, --output, --plots, --track, --seed, --separate-nodes, --speed, --no-live, "
+    "--parameters",
+    "sitl stand-in": "tests/sitl/test_real_ports.py: --ports, --channel, --seconds, --parameters",
     "vehicle run": "tests/sitl/test_real_ports.py: --mission, --start, --seconds",
     "sitl campaign": "tests/sitl/test_campaign_command: --output, --runs, --seed, --workers, --scheduler, --restart",
     "sitl replay": "tests/sitl/test_campaign_command: --seed",

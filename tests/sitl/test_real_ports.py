@@ -19,6 +19,11 @@ import stommel
 from stommel.errors import StommelError
 from stommel.messages.adapters import Adapter, BusError
 from stommel.messages.bus import CanBus
+from stommel.messages.parameter_files import ParameterFiles
+from stommel.messages.parameters import ParameterServer
+from stommel.onboard.execution.motion_node import MotionNode
+from stommel.onboard.nodes.motion_settings import MotionSettings
+from stommel.onboard.nodes.node_settings import parameters_of
 from stommel.simulation.scenario.shipped import mission_path
 from stommel.sitl.stand_in import StandIn, Terminals
 from tests.support.command import PROGRAM, run_here
@@ -55,11 +60,12 @@ def configured(folder: Path) -> Path:
 def test_vehicle_run_checks_itself_and_begins_its_mission(tmp_path: Path, bus: CanBus) -> None:
     """Every start check passes through real ports within seconds, and the nodes obey."""
     path = configured(tmp_path)
+    path.write_text(path.read_text().replace("motion = {}", "motion = { quiet_after = 8.0 }"))
     mission = stommel.load_mission(mission_path("kuroshio"))
     sensors = mission.scenario.sensors.model_copy(update={"first_fix_s": 3.0})
     mission = replace(mission, scenario=mission.scenario.model_copy(update={"sensors": sensors}))
     arguments = ["--mission", tmp_path / "orders.toml", "--start", "--json", "--seconds", SECONDS]
-    with StandIn(mission, bus, tmp_path / "ports") as vehicle:
+    with StandIn(mission, bus, tmp_path / "ports", parameters=tmp_path / "kept") as vehicle:
         process = subprocess.Popen(
             [PROGRAM, "vehicle", "run", path, *map(str, arguments)],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
@@ -68,6 +74,8 @@ def test_vehicle_run_checks_itself_and_begins_its_mission(tmp_path: Path, bus: C
         out, told = process.communicate(timeout=30.0)
         assert process.returncode == 0, told
         assert vehicle.modes == {"motion": "operational", "acquisition": "operational"}
+        assert isinstance(vehicle.system.motion, MotionNode)
+        assert vehicle.system.motion.settings.quiet_after == 8.0
     assert "communicate: told to start, mission valid, all proven, no alarm forbids it" in told
     assert json.loads(out)["decisions"] >= SECONDS - 3
     logs = sorted((tmp_path / "log").iterdir())
@@ -75,6 +83,23 @@ def test_vehicle_run_checks_itself_and_begins_its_mission(tmp_path: Path, bus: C
     for log in logs:
         assert run_here(tmp_path, "vehicle", "log", log, "--json").json["status"] == "whole"
     assert (tmp_path / "missions" / "mission-000001.orders").exists()
+    assert any(b"Motion: quiet_after = 8.0 s: Ok" in log.read_bytes() for log in logs)
+
+
+def test_a_damaged_parameter_store_is_told_and_the_last_good_copy_holds(tmp_path: Path, bus: CanBus) -> None:
+    """A stand-in's nodes keep their parameters in files when given a folder."""
+    bus.close()  # the command opens its own
+    kept = tmp_path / "kept"
+    server = ParameterServer(parameters_of(MotionSettings()), ParameterFiles(kept, "motion"))
+    for _ in range(2):
+        assert server.save() == "Ok"
+    assert sorted(path.name for path in kept.iterdir()) == ["motion.0", "motion.1"]
+    (kept / "motion.1").write_bytes(b"nonsense")
+    arguments = ("--ports", tmp_path / "ports", "--channel", CHANNEL, "--parameters", kept, "--seconds", 1)
+    done = run_here(tmp_path, "sitl", "stand-in", "pool_trial", *arguments)
+    assert done.status == 0
+    assert "note: motion node: parameter store, copy 1: it is not a parameter store" in done.err
+    assert "note: motion node: parameter store: copy 0 holds, the last good one" in done.err
 
 
 def test_every_missing_port_is_named(tmp_path: Path) -> None:

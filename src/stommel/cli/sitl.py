@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -21,6 +22,7 @@ from stommel.cli.status import INTERRUPTED
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
+    from stommel.onboard.coordination.health import SourceHealth
     from stommel.simulation.flight import Flown
     from stommel.simulation.scenario.mission import Mission
     from stommel.sitl.flight import Watcher
@@ -88,6 +90,15 @@ def fly(
     separate_nodes: Annotated[
         bool, typer.Option("--separate-nodes", help="Run both nodes in processes of their own.")
     ] = False,
+    parameters: Annotated[
+        Path | None,
+        typer.Option(
+            "--parameters",
+            metavar="FOLDER",
+            parser=folder_parser("--parameters"),
+            help="Folder in which the nodes keep their parameters from flight to flight.",
+        ),
+    ] = None,
     live: Annotated[
         bool | None, typer.Option("--live/--no-live", help="Show the flight; if left out, where there is a terminal.")
     ] = None,
@@ -117,8 +128,10 @@ def fly(
     with shore_at(link, key) as (shore, guard):
         system = System(
             mission, None if log is None else logbook_in(log, mission), Injector(faults, mission.scenario.seed),
-            radio=air, shore=shore, guard=guard,
+            radio=air, shore=shore, guard=guard, parameters=parameters,
         )  # fmt: skip
+        for note in system.notes:
+            _say(note)
         flown, about = _flown(system, log, times, separate_nodes, live)
     row = described(flown, None) | about
     with writing("while writing; the files that are there are whole"):
@@ -233,6 +246,7 @@ def _about(system: "System", nodes: str, log: Path | None, pace: "Pace | None") 
     return {
         "state": "switched on" if view is None else view.executive.words,
         "alarms": [] if view is None else [{"name": a.name, "since_s": a.since} for a in view.safety.active],
+        "sources": [] if view is None else [_source(source) for source in view.health.sources],
         "nodes": nodes,
         "bus_load_share": system.bus.load(system.plant.time),
         "frames_to_coordinator": decoder.received.total(),
@@ -244,11 +258,27 @@ def _about(system: "System", nodes: str, log: Path | None, pace: "Pace | None") 
     }
 
 
+def _source(source: "SourceHealth") -> dict[str, Any]:
+    """How a node or an instrument did; the age is unknown of one that was never heard."""
+    row = source._asdict() | {"condition": source.condition.value}
+    age = row.pop("age")
+    return row | {"age_s": None if isnan(age) else age}
+
+
+def _health(sources: list[dict[str, Any]]) -> str:
+    """Sources whose condition is other than well."""
+    odd = [
+        f"{source['name']} {source['condition']}" for source in sources if source["condition"] not in ("well", "off")
+    ]
+    return ", ".join(odd) or "all that is on is well"
+
+
 def _show(row: dict[str, Any]) -> None:
     show(row)
     values = {
         "state": row["state"],
         "alarms": ", ".join(f"{a['name']} since {a['since_s']:.0f} s" for a in row["alarms"]) or "none",
+        "health": _health(row["sources"]),
         "nodes": row["nodes"],
         "bus": (
             f"{row['bus_load_share']:.1%} busy, {counted(row['frames_to_coordinator'], 'frame')} to the coordinator, "

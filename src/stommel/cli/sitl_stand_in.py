@@ -31,6 +31,15 @@ def stand_in(
     channel: Annotated[
         str, typer.Option("--channel", metavar="ADDRESS", help="Multicast address of the CAN bus.")
     ] = "239.74.163.2",
+    parameters: Annotated[
+        Path | None,
+        typer.Option(
+            "--parameters",
+            metavar="FOLDER",
+            parser=folder_parser("--parameters"),
+            help="Folder in which the nodes keep their parameters; without it they forget them.",
+        ),
+    ] = None,
     seconds: Annotated[float | None, number_option("--seconds", 1.0, LONGEST, "s", "Stop after this time")] = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -48,11 +57,13 @@ def stand_in(
     mission = load_mission(mission_path(scenario))
     bus = CanBus(Adapter("udp_multicast", channel, keys="--"))
     try:
-        stood_in = StandIn(mission, bus, ports)
+        stood_in = StandIn(mission, bus, ports, parameters=parameters)
     except BaseException:
         bus.close()
         raise
     with stood_in, until_asked() as asked:
+        for note in stood_in.system.notes:
+            typer.echo(f"note: {note}", err=True)
         for name, path in stood_in.terminals.paths.items():
             typer.echo(f"{name}: {path}", err=True)
         stood_in.run(LONGEST if seconds is None else seconds, asked)

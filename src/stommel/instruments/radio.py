@@ -68,6 +68,8 @@ class Radio:
         self._out = _Pipe(bit_rate, buffer)
         self._buffer = buffer
         self._received = 0
+        self.heard_at = float("-inf")
+        """When bytes last came [s]."""
 
     @property
     def room(self) -> int:
@@ -82,9 +84,11 @@ class Radio:
         """Bytes to send now: as many as the bit rate has had time for."""
         return self._out.get(t)
 
-    def take(self, data: bytes, t: float) -> bytes:  # noqa: ARG002 - as every driver has it
+    def take(self, data: bytes, t: float) -> bytes:
         """Bytes that came, as they came."""
-        self._received += len(data)
+        if data:
+            self._received += len(data)
+            self.heard_at = t
         return data
 
     def counts(self) -> RadioCounts:

@@ -196,6 +196,11 @@ class Decoder:
             self.lost[answer.name] += answer.lost
         return answer
 
+    def rejected_of(self, identifier: int) -> int:
+        """How many frames of an identifier that the database knows were rejected."""
+        rejected = self.rejected
+        return sum(rejected.get((identifier, reason), 0) for reason in REASONS)
+
     def forget(self, identifiers: set[int]) -> None:
         """Begin to count anew, as after a node's restart."""
         for identifier in identifiers:

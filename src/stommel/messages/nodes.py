@@ -1,8 +1,10 @@
 """Who is on the bus: heartbeats sent, and heartbeats, versions and strangers watched."""
 
 from collections import Counter
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from enum import IntEnum
+from math import inf
 from typing import NamedTuple
 
 from stommel.messages.codec import Encoder, Received, Rejected
@@ -183,6 +185,20 @@ class NodeWatch:
         """State of a watched node, one of `NodeState`; None before its first heartbeat."""
         return self._nodes[NODES[node]].state
 
+    def heard_at(self, node: int) -> float:
+        """When the last heartbeat of a watched node came [s]; minus infinity before the first."""
+        heard = self._nodes[NODES[node]].heard
+        return -inf if heard is None else heard
+
+    def restarts_of(self, node: int) -> int:
+        """How often a watched node was seen to start anew."""
+        return self._nodes[NODES[node]].restarts_seen
+
+    def is_met(self, node: int) -> bool:
+        """Whether a watched node has said what it is, and is not refused."""
+        known = self._nodes[NODES[node]]
+        return known.kind is not None and not known.refused
+
     def reports(self, node: int, fault: str) -> bool:
         """Whether a watched node has told a fault, a word of its emergencies, and not that it is over."""
         return fault in self._nodes[NODES[node]].emergencies
@@ -193,9 +209,9 @@ class NodeWatch:
         return sum(node.restarts_seen for node in self._nodes.values())
 
     @property
-    def strangers(self) -> int:
-        """How many identifiers the database does not know."""
-        return len(self._strangers)
+    def strangers(self) -> Collection[int]:
+        """Identifiers that the database does not know; they only become more."""
+        return self._strangers.keys()
 
     def snapshot(self, t: float) -> Network:
         """Return all that is known at a time [s]."""

@@ -10,7 +10,7 @@ _MOST_MIB = 1
 
 
 class ParameterFiles:
-    """Copies `NAME.0` and `NAME.1` in a folder."""
+    """Copies `NAME.0` and `NAME.1` in a folder, which is made when the first is written."""
 
     def __init__(self, folder: Path, name: str) -> None:
         self._paths = [folder / f"{name}.{copy}" for copy in (0, 1)]

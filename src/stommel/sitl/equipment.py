@@ -4,13 +4,15 @@ import math
 
 import numpy as np
 
+from stommel.control.dive_cycle import PHASES
 from stommel.control.flight_table import look_up
 from stommel.control.orders import Orders
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.limits import ActuatorLimits, SafetyLimits
+from stommel.onboard.coordination.power import PowerSchedule
 from stommel.onboard.coordination.settings import CoordinatorSettings
-from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
-from stommel.onboard.execution.motion_settings import MotionSettings
+from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
+from stommel.onboard.nodes.motion_settings import MotionSettings
 from stommel.simulation.plant.hull_air import Hull
 from stommel.simulation.plant.parameters import Battery, Engine
 from stommel.simulation.plant.parameters import Plant as Machinery
@@ -79,7 +81,7 @@ def coordinator_settings(setup: Setup, sample_interval: float, calibration: Comp
         declination=setup.equipment.sensors.declination,
         calibration=calibration,
         usable_energy=plant.battery.energy if math.isfinite(plant.battery.energy) else None,
-        sample_interval=sample_interval,
+        schedule=PowerSchedule(ctd=(sample_interval,) * len(PHASES)),
     )
 
 

@@ -10,18 +10,21 @@ import signal
 from collections.abc import Callable
 from contextlib import ExitStack, suppress
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from stommel.messages.adapters import Adapter
 from stommel.messages.bus import CanBus
+from stommel.messages.database import ACQUISITION, MOTION
 from stommel.messages.frames import Frame
 from stommel.onboard.execution.acquisition_io import AcquisitionReadings
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
-from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
 from stommel.onboard.execution.motion_io import MotionReadings
 from stommel.onboard.execution.motion_node import MotionNode
-from stommel.onboard.execution.motion_settings import MotionSettings
+from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
+from stommel.onboard.nodes.motion_settings import MotionSettings
 from stommel.sitl.ctd_port import CtdPort
+from stommel.sitl.nodes import store_of
 
 if TYPE_CHECKING:
     from stommel.sitl.nodes import Acquisition, Motion
@@ -41,12 +44,12 @@ class Asked(NamedTuple):
     """What else its `step` takes: the interval [s], or the CTD's bytes."""
 
 
-def serve(connection: Connection, settings: Settings, multicast: Adapter | None) -> None:
-    """Be a node until the connection ends; this is the main function of its process."""
+def serve(connection: Connection, settings: Settings, multicast: Adapter | None, parameters: Path | None) -> None:
+    """Be a node until the connection ends, its parameters in a folder; this is the main function of its process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for whom started us, who then ends us
     with ExitStack() as open_things, suppress(EOFError, OSError):
         bus = None if multicast is None else open_things.enter_context(CanBus(multicast))
-        step = _stepper(settings)
+        step = _stepper(settings, parameters)
         connection.send(os.getpid())
         while True:
             asked = Asked(*connection.recv())
@@ -55,11 +58,11 @@ def serve(connection: Connection, settings: Settings, multicast: Adapter | None)
             connection.send((_given(said, bus), tuple(outputs)))
 
 
-def _stepper(settings: Settings) -> Callable[..., tuple[list[Frame], tuple[Any, ...]]]:
+def _stepper(settings: Settings, parameters: Path | None) -> Callable[..., tuple[list[Frame], tuple[Any, ...]]]:
     if isinstance(settings, MotionSettings):
-        motion: Motion = MotionNode(settings)
+        motion: Motion = MotionNode(settings, store=store_of(MOTION, parameters))
         return lambda t, frames, readings, interval: motion.step(t, frames, MotionReadings(*readings), interval)
-    acquisition: Acquisition = AcquisitionNode(settings, ctd=CtdPort())
+    acquisition: Acquisition = AcquisitionNode(settings, store=store_of(ACQUISITION, parameters), ctd=CtdPort())
     return lambda t, frames, readings, data: acquisition.step(t, frames, AcquisitionReadings(*readings), data)
 
 

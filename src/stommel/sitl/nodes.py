@@ -1,11 +1,23 @@
 """What the loop asks of nodes and of their bus, wherever they run."""
 
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Protocol
 
+from stommel.messages.database import ACQUISITION, MOTION
 from stommel.messages.frames import Frame
+from stommel.messages.parameter_files import ParameterFiles
+from stommel.messages.parameters import MemoryStore, ParameterStore
 from stommel.onboard.execution.acquisition_io import AcquisitionOutputs, AcquisitionReadings
 from stommel.onboard.execution.motion_io import DriveOutputs, MotionReadings
+
+FILES = {MOTION: "motion", ACQUISITION: "acquisition"}
+"""Names of the nodes' parameter files."""
+
+
+def store_of(node: int, folder: Path | None) -> ParameterStore:
+    """Where a node keeps its parameters: in files of a folder, or as long as the flight lasts."""
+    return MemoryStore() if folder is None else ParameterFiles(folder, FILES[node])
 
 
 class Motion(Protocol):

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
+from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
@@ -29,12 +30,19 @@ _DEAD = AcquisitionOutputs(0, False, False, b"")
 class NodeProcess:
     """A process that is a node, as long as it lives; afterwards it says nothing, as a board without power."""
 
-    def __init__(self, name: str, settings: Settings, multicast: Adapter | None, say: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        name: str,
+        settings: Settings,
+        multicast: Adapter | None,
+        say: Callable[[str], None],
+        parameters: Path | None = None,
+    ) -> None:
         spawning = multiprocessing.get_context("spawn")  # a copy of our threads and terminal would do harm
         self._connection, theirs = spawning.Pipe()
         self._name, self._say = name, say
         self._process: BaseProcess | None = spawning.Process(
-            target=serve, args=(theirs, settings, multicast), name=name, daemon=True
+            target=serve, args=(theirs, settings, multicast, parameters), name=name, daemon=True
         )
         self._process.start()
         theirs.close()
@@ -116,7 +124,7 @@ class SeparateNodes:
     Parameters
     ----------
     system
-        Whose nodes they are.
+        Whose nodes they are; where it keeps their parameters, they do.
     multicast
         Over which frames go in real time; None: over the connections, in lockstep with virtual time.
     say
@@ -146,7 +154,7 @@ class SeparateNodes:
         if self._multicast is not None:
             self._bus = system.bus = CoordinatorsBus(CanBus(self._multicast))
         for name, of_node in settings.items():
-            self.processes[name] = NodeProcess(name, of_node, self._multicast, self._say)
+            self.processes[name] = NodeProcess(name, of_node, self._multicast, self._say, system.parameters)
         system.motion = _RemoteMotion(self.processes["motion"])
         system.acquisition = _RemoteAcquisition(self.processes["acquisition"])
         return self

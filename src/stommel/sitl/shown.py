@@ -8,6 +8,19 @@ from stommel.control.memory import MEMORY
 from stommel.geometry.attitude import wrapped
 from stommel.geometry.earth import MEAN_RADIUS
 from stommel.onboard.coordination.failsafes import Reaction
+from stommel.onboard.coordination.health import (
+    ACQUISITION_NODE,
+    ALTIMETER,
+    BATTERY_GAUGE,
+    COMPASS,
+    CTD,
+    GPS,
+    MOTION_NODE,
+    PRESSURE_SENSOR,
+    RADIO,
+    Condition,
+    SourceHealth,
+)
 from stommel.onboard.coordination.view import View
 from stommel.sitl.observer import Observer
 from stommel.sitl.system import System
@@ -16,6 +29,12 @@ _MOST_HOURS = 1e5
 """A longer time is none that is known: at rest, or just switched on [h]."""
 WELL, QUIET, ODD, BAD = "well", "quiet", "odd", "bad"
 """How a value is: as it should be, of no interest now, worth a look, wrong."""
+
+HOW = {
+    Condition.OFF: QUIET, Condition.WAITING: QUIET, Condition.WELL: WELL, Condition.LATE: ODD, Condition.SILENT: BAD,
+    Condition.REFUSED: BAD,
+}  # fmt: skip
+_NODES = (MOTION_NODE, ACQUISITION_NODE)
 
 assert {"latitude", "longitude", "waypoint", "heading_wanted", "energy_used"} <= set(MEMORY.names or ())
 
@@ -154,34 +173,46 @@ def _left(view: View) -> str:
 
 def _bus(system: System, view: View) -> tuple[Line, ...]:
     decoder, watch = system.coordinator.perception.decoder, system.coordinator.perception.watch
+    health = {source.name: source for source in view.health.sources}
     lost, rejected = decoder.lost.total(), decoder.rejected.total()
     lines = [
         Line("load", f"{system.bus.load(view.t + system.plant.step):.1%} of 250 kbit/s"),
         Line("frames", f"{decoder.received.total():,}"),
         Line("lost, rejected", f"{lost}, {rejected}", ODD if lost or rejected else WELL),
     ]
-    for node in watch.snapshot(view.t).nodes:
-        words = "silent" if node.silent else node.refused or node.state or "not heard"
-        how = BAD if node.silent or node.refused else WELL if node.state == "Operational" else ODD
-        restarts = f", started {node.restarts_seen + 1} times" if node.restarts_seen else ""
-        lines.append(Line(node.name.lower(), words.lower() + restarts, how))
+    for node, name in zip(watch.snapshot(view.t).nodes, _NODES, strict=True):
+        source = health[name]
+        heard = source.condition in (Condition.WELL, Condition.LATE)
+        words = node.state if heard else node.refused or source.condition.value
+        how = ODD if heard and node.state != "Operational" else HOW[source.condition]
+        lines.append(Line(node.name.lower(), words.lower() + counts(source), how))
     return tuple(lines)
 
 
 def _instruments(system: System, view: View) -> tuple[Line, ...]:
-    coordinator, now = system.coordinator, view.situation
-    compass, gnss = coordinator.compass.health(view.t), coordinator.gnss.health(view.t)
-    on, sampling = view.commands.radio, view.commands.sampling
-    return (
-        Line("compass", str(compass.state), BAD if now.compass_silent else WELL),
-        Line("GPS", str(gnss.state) if on else "off", (BAD if now.gps_silent else WELL) if on else QUIET),
-        Line("radio", "on" if on else "off", WELL if on else QUIET),
-        Line(
-            "CTD", ("silent" if now.ctd_silent else "samples") if sampling else "rests",
-            (BAD if now.ctd_silent else WELL) if sampling else QUIET,
-        ),
-        Line("altimeter", "silent" if now.altimeter_silent else "answers", BAD if now.altimeter_silent else WELL),
+    """Of each instrument one word; those behind the acquisition node only where they are not well."""
+    own = system.coordinator.instruments
+    words = {COMPASS: str(own.compass.health(view.t).state), GPS: str(own.gnss.health(view.t).state), RADIO: "on"}
+    words |= {CTD: "samples", ALTIMETER: "answers"}
+    sources = {source.name: source for source in view.health.sources}
+    behind = [name for name in (PRESSURE_SENSOR, BATTERY_GAUGE) if sources[name].condition is not Condition.WELL]
+    lines = []
+    for name in (*words, *behind):
+        source, condition = sources[name], sources[name].condition
+        speaks = condition in (Condition.WELL, Condition.WAITING) and name in words
+        lines.append(Line(name, (words[name] if speaks else condition.value) + counts(source), HOW[condition]))
+    return tuple(lines)
+
+
+def counts(source: SourceHealth) -> str:
+    """What of a source was lost and rejected, how often it was silent before and started anew: in words, no zeros."""
+    before = source.silences - (source.condition is Condition.SILENT)
+    told = (
+        (source.lost, "lost"), (source.rejected, "rejected"), (before, "× silent"),
+        (source.restarts, "× restarted"),
     )  # fmt: skip
+    words = ", ".join(f"{count}{'' if what[0] == '×' else ' '}{what}" for count, what in told if count)
+    return f" ({words})" if words else ""
 
 
 def _place(system: System) -> tuple[Line, ...]:

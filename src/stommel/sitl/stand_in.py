@@ -14,7 +14,7 @@ from typing import Self
 from stommel.errors import StommelError
 from stommel.messages.bus import CanBus
 from stommel.messages.frames import Frame
-from stommel.onboard.coordination.coordinator import PORTS
+from stommel.onboard.coordination.own_instruments import PORTS
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
 from stommel.onboard.execution.motion_node import MotionNode
 from stommel.simulation.scenario.mission import Mission
@@ -114,6 +114,8 @@ class StandIn:
         In which the serial ports appear, by the names of the configuration's tables.
     clock, sleep
         Of the computer.
+    parameters
+        Folder in which the nodes keep their parameters; None: they forget them with this object.
     """
 
     def __init__(
@@ -123,8 +125,9 @@ class StandIn:
         folder: Path,
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
+        parameters: Path | None = None,
     ) -> None:
-        self.system = System(mission)
+        self.system = System(mission, parameters=parameters)
         self.terminals = Terminals(folder, PORTS)
         self._bus = bus
         self._pace = Pace(1.0, clock, sleep)

@@ -7,6 +7,7 @@ motion-control node obeys; all through frames of the bus and bytes of the instru
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import degrees, inf
+from pathlib import Path
 
 import numpy as np
 
@@ -17,9 +18,10 @@ from stommel.link.channel.settings import ChannelSettings
 from stommel.link.signing.guard import Guard
 from stommel.messages.database import ACQUISITION, COORDINATOR, MOTION, database_hash
 from stommel.messages.frames import Frame
-from stommel.onboard.coordination.coordinator import COMPASS, GNSS, RADIO, Coordinator
+from stommel.onboard.coordination.coordinator import Coordinator
 from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook
+from stommel.onboard.coordination.own_instruments import COMPASS, GNSS, RADIO
 from stommel.onboard.coordination.situation import OperatorRequests
 from stommel.onboard.coordination.stores.continuity import ContinuityStore
 from stommel.onboard.execution.acquisition_io import AcquisitionOutputs, AcquisitionReadings
@@ -35,7 +37,7 @@ from stommel.sitl.equipment import acquisition_settings, coordinator_settings, k
 from stommel.sitl.faults.disk import MemoryDisk
 from stommel.sitl.faults.injector import Injector
 from stommel.sitl.instruments import CompassPort, GnssPort, compass_truth
-from stommel.sitl.nodes import Acquisition, Bus, Motion
+from stommel.sitl.nodes import FILES, Acquisition, Bus, Motion, store_of
 from stommel.sitl.payload import NOTHING, Payload
 from stommel.sitl.plant import Felt, Plant
 from stommel.sitl.radio.air import Air, End
@@ -69,6 +71,8 @@ class System:
         Faults; none if left out. If it has a disk, logbooks are kept there, a new one at each start of the coordinator.
     expires
         Time of the mission at which its time is over for the software [s].
+    parameters
+        Folder in which the nodes keep their parameters; None: they keep them for this flight.
     radio
         What the air is like; as on a calm day if left out.
     shore
@@ -91,6 +95,7 @@ class System:
         radio: ChannelSettings | None = None,
         shore: End | None = None,
         guard: Guard | None = None,
+        parameters: Path | None = None,
     ) -> None:
         self.mission = mission
         self.inject = Injector() if inject is None else inject
@@ -99,8 +104,12 @@ class System:
         machinery, orders = setup.equipment.plant, setup.orders
         self.ports = Ports()
         self.bus: Bus = SimulatedBus(NODES)
-        self.motion: Motion = MotionNode(motion_settings(machinery, orders))
-        self.acquisition: Acquisition = AcquisitionNode(acquisition_settings(machinery), ctd=self.ports.ctd)
+        self.parameters = parameters
+        self._stores = {node: store_of(node, parameters) for node in FILES}
+        self.motion: Motion = MotionNode(motion_settings(machinery, orders), store=self._stores[MOTION])
+        self.acquisition: Acquisition = AcquisitionNode(
+            acquisition_settings(machinery), store=self._stores[ACQUISITION], ctd=self.ports.ctd
+        )
         self.expires = expires
         self.payload = Payload(mission.scenario)
         self.switched = _SWITCHED_OFF
@@ -125,6 +134,17 @@ class System:
     def motion_mode(self) -> Mode | None:
         """What the motion-control node is about; None if it is in a process of its own."""
         return self.motion.link.modes.mode if isinstance(self.motion, MotionNode) else None
+
+    @property
+    def notes(self) -> list[str]:
+        """What was wrong with the parameters that the nodes of this process have kept, in words."""
+        nodes = ((MOTION, self.motion), (ACQUISITION, self.acquisition))
+        return [
+            f"{FILES[number]} node: {note}"
+            for number, node in nodes
+            if isinstance(node, MotionNode | AcquisitionNode)
+            for note in node.link.notes
+        ]
 
     def step(self) -> None:
         """Let one step pass."""
@@ -197,12 +217,13 @@ class System:
         """Let a computer start anew after a loss of power, with what its store keeps."""
         self.restarts[node] += 1
         self.bus.receive(node)
+        restarts, store = self.restarts[node], self._stores.get(node)
         machinery, orders = self.plant.setup.equipment.plant, self.plant.setup.orders
         if node == MOTION:
-            self.motion = MotionNode(motion_settings(machinery, orders), self.restarts[node])
+            self.motion = MotionNode(motion_settings(machinery, orders), restarts, store)
         elif node == ACQUISITION:
             settings = acquisition_settings(machinery)
-            self.acquisition = AcquisitionNode(settings, self.restarts[node], ctd=self.ports.ctd)
+            self.acquisition = AcquisitionNode(settings, restarts, store, ctd=self.ports.ctd)
         else:
             self.coordinator = self._started_coordinator(t, self.coordinator.recorder.logbook)
             self.link = self._station.link(self.coordinator, self.expires)

@@ -81,13 +81,13 @@ def test_fades_have_their_share_and_their_length() -> None:
     settings = ChannelSettings(fade_every=3.0, fade_length=1.0, packet=21, buffer=2**20, half_duplex=False)
     channel = Channel(settings, seed=5)
     lost: list[bool] = []
-    for number in range(200_000):
+    for number in range(60_000):
         t = number * 0.1
         channel.vehicle.write(FRAME, t)
         lost.append(not channel.shore.read(t + 0.099))
     runs = [len(list(run)) for is_lost, run in itertools.groupby(lost) if is_lost]
-    assert sum(lost) / len(lost) == pytest.approx(0.25, abs=0.02)
-    assert 0.1 * sum(runs) / len(runs) == pytest.approx(1.0, rel=0.1)
+    assert sum(lost) / len(lost) == pytest.approx(0.25, abs=0.03)
+    assert 0.1 * sum(runs) / len(runs) == pytest.approx(1.0, rel=0.12)
 
 
 def test_bits_flip_as_often_as_they_should() -> None:

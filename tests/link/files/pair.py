@@ -42,6 +42,7 @@ class Pair:
     def __init__(self, settings: ChannelSettings, seed: int = 0, linked: Callable[[float], bool] | None = None) -> None:
         self.channel = Channel(settings, seed, linked)
         self.t = 0.0
+        self.pace = self.usual = STEP
         self.vehicle = SignedSession(*VEHICLE, [])
         self.shore = SignedSession(*SHORE, [])
 
@@ -54,13 +55,20 @@ class Pair:
     def step(self) -> None:
         self._turn(self.vehicle, self.channel.vehicle)
         self._turn(self.shore, self.channel.shore)
-        self.t += STEP
+        self.t += self.pace
 
     def _turn(self, session: Session, end: ChannelEnd) -> None:
         session.take(end.read(self.t), self.t)
         room = IN_MODEM - end.modem.waiting
         if room > 0:
             end.write(session.poll(self.t, min(room, end.room(self.t))), self.t)
+
+    def wait(self, seconds: float) -> None:
+        """Let time pass in which nobody hears anybody."""
+        end, self.pace = self.t + seconds, 0.5
+        while self.t < end:
+            self.step()
+        self.pace = self.usual
 
     def run(self, until: Callable[[], bool], most: float) -> bool:
         """Let time pass until something is so, and say whether it is."""

@@ -1,5 +1,7 @@
 """Stretches of bytes. Oracle: Python's sets of numbers."""
 
+from itertools import pairwise
+
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -25,7 +27,7 @@ def test_ranges_are_sets_of_numbers(steps: list[tuple[str, int, int]], low: int,
         assert numbers(ranges) == expected
         assert ranges.bytes == len(expected)
         stretches = list(ranges)
-        assert all(a.last < b.first for a, b in zip(stretches, stretches[1:], strict=False))
+        assert all(a.last < b.first for a, b in pairwise(stretches))
         assert all(each.size > 0 for each in stretches)
     assert numbers(ranges.missing(30)) == set(range(30)) - expected
     assert numbers(Ranges(ranges.within(low, high))) == expected & set(range(low, high))

@@ -36,6 +36,11 @@ def receive(disk: MemoryDisk | FolderDisk, t: float = 0.0) -> list[int]:
     return asked
 
 
+def write_all(file: ReceivedFile) -> None:
+    for at, piece in PIECES:
+        file.write(at, piece, 0.0)
+
+
 def killed_after(writes: int, disk: MemoryDisk) -> bool:
     """Receive until the program dies at a write; whether it did."""
     disk.writes, disk.dies_after = 0, writes
@@ -114,7 +119,7 @@ def test_bytes_that_the_disk_has_damaged_are_fetched_again() -> None:
     disk.files["a.log.part"][700] ^= 1
     again = ReceivedFile(disk, "a.log", IDENTITY)
     assert again.damaged_bytes == SEGMENT
-    assert list(again.missing)[0] == (2 * SEGMENT, 3 * SEGMENT)
+    assert next(iter(again.missing)) == (2 * SEGMENT, 3 * SEGMENT)
     disk.files["a.log.part.ranges"][-5] ^= 1
     assert receive(disk)[0] <= 2 * SEGMENT
     assert disk.files["a.log"] == DATA
@@ -136,8 +141,7 @@ def test_a_full_disk_is_named_and_the_part_is_kept() -> None:
     with pytest.raises(
         ReceptionError, match=r"a.log: No space left on device; \d+ of 5000 bytes are kept in a.log.part"
     ):
-        for at, piece in PIECES:
-            file.write(at, piece, 0.0)
+        write_all(file)
     kept = file.received.bytes
     assert kept > 2000
     disk.room = None

@@ -17,6 +17,7 @@ from stommel.control.dive_cycle import DRIFT, PHASES, RECOVERY, SURFACE
 from stommel.errors import FileError
 from stommel.files.docstrings import attribute_docstrings
 from stommel.files.table_keys import models_in
+from stommel.instruments.tcm.driver import CompassSettings
 from stommel.messages.serial_port import BAUD_RATES
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.config import ConfigurationFile, read_configuration
@@ -92,7 +93,7 @@ def models(model: type[BaseModel]) -> Iterator[type[BaseModel]]:
 def test_every_key_is_written_with_what_it_means(text: str) -> None:
     """Above each is its docstring; those without a value are there as comments."""
     found = list(models(ConfigurationFile))
-    assert len(found) == 12
+    assert len(found) == 14
     plain = " ".join(text.replace("\n# ", " ").split())
     for model in found:
         for key, meaning in attribute_docstrings(model).items():
@@ -115,6 +116,7 @@ def test_what_may_be_left_out(tmp_path: Path) -> None:
     assert found.calibration == CompassCalibration()
     assert (found.adapter.interface, found.adapter.channel) == ("socketcan", "can0")
     assert found.coordinator.masking.longest == 20.0
+    assert found.compass == CompassSettings(polled=False)
     assert found.path(found.file.log.folder) == tmp_path / "log"
 
 
@@ -123,13 +125,18 @@ def test_units_of_the_file_become_si(tmp_path: Path) -> None:
         CONFIGURATION.replace('port = "/dev/a"', 'port = "/dev/a"\ndeclination_deg = -6.0\nhold_s = 7.0')
         + "[power]\nreserve = 0.25\nmean_over_hours = 2.0\ncompass_asleep_in = ['drift']\n"
         + "[power.decide_every_s]\ndrift = 30.0\n"
+        + "[power.sample_every_s]\ndrift = 60.0\n"
+        + "[node_parameters]\nmotion = { quiet_after = 8.0 }\nacquisition = { radio_left_alone = false }\n"
     ).replace("depth_rating_m = 200.0", "depth_rating_m = 200.0\nbattery_wh = 1000.0")
     found = read_configuration(written(tmp_path, changed))
     assert found.coordinator.declination == radians(-6.0)
     assert found.coordinator.masking.longest == 7.0
     assert found.usable_energy == pytest.approx(0.75 * 3.6e6)
-    assert (found.schedule.decide[DRIFT], found.schedule.compass[DRIFT]) == (30.0, 30.0)
-    assert (found.schedule.decide[SURFACE], found.schedule.compass[SURFACE]) == (1.0, 1.0)
+    assert (found.schedule.decide[DRIFT], found.schedule.compass_rests[DRIFT]) == (30.0, True)
+    assert (found.schedule.decide[SURFACE], found.schedule.compass_rests[SURFACE]) == (1.0, False)
+    assert found.coordinator.compass.polled  # a compass that sends by itself cannot rest
+    assert (found.schedule.ctd[DRIFT], found.schedule.ctd[SURFACE]) == (60.0, 10.0)
+    assert found.coordinator.node_parameters == {2: {"quiet_after": 8.0}, 3: {"radio_left_alone": False}}
     assert found.coordinator.mean_power_over == 7200.0
     assert found.safety.longest_submerged == 90_000.0
     assert found.safety.vacuum_lost == 80_000.0
@@ -241,6 +248,18 @@ def test_rates_of_the_ports_are_those_that_open() -> None:
         ("[safety]", "[power.decide_every_s]\ndrift = 0.0\n[safety]",
          "power.decide_every_s.drift = 0.0: must be between 0.1 and 60"),
         ("[safety]", "[power]\ngps_in = ['surfaced']\n[safety]", "did you mean surface?"),
+        ("[safety]", "[node_parameters]\nmotion = { quiet_aftr = 8.0 }\n[safety]",
+         "node_parameters: motion.quiet_aftr = 8: is no parameter of the node; did you mean quiet_after? known: pump_"),
+        ("[safety]", "[node_parameters]\nmotion = { quiet_after = 800.0 }\n[safety]",
+         "node_parameters: motion.quiet_after = 800: must be between 1 and 60 s"),
+        ("[safety]", "[node_parameters]\nmotion = { quiet_after = nan }\n[safety]",
+         "node_parameters: motion.quiet_after = nan: must be between 1 and 60 s"),
+        ("[safety]", "[node_parameters]\nmotion = { retries = 1.5 }\n[safety]",
+         "node_parameters: motion.retries = 1.5: must be a whole number"),
+        ("[safety]", "[node_parameters]\nacquisition = { radio_left_alone = 2 }\n[safety]",
+         "node_parameters: acquisition.radio_left_alone = 2: must be between 0 and 1"),
+        ("[safety]", "[power.sample_every_s]\ndrift = 4000.0\n[safety]",
+         "power.sample_every_s.drift = 4000.0: must be between 0.1 and 3600"),
         ("[safety]", '[can]\ninterface = "slcam"\n[safety]', "did you mean slcan?"),
         ("[safety]", '[can]\ninterface = "udp_multicast"\nchannel = "10.0.0.1"\n[safety]',
          "can.channel = '10.0.0.1': must be a multicast address"),

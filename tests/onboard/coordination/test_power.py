@@ -81,13 +81,6 @@ def test_frames_that_wake() -> None:
         assert wakes(received) is expected, word
 
 
-def test_peripherals_go_by_phase() -> None:
-    gps = tuple(phase == SURFACE for phase in range(len(PHASES)))
-    sleeper = Sleeper(PowerSchedule(gps=gps, ctd=(3.0, 4.0, 5.0, 6.0, 7.0, 8.0)))
-    assert sleeper.peripherals(SURFACE) == (1.0, 3.0, True)
-    assert sleeper.peripherals(DESCENT) == (1.0, 4.0, False)
-
-
 def test_orders_count_by_their_step() -> None:
     nothing = np.zeros(0)
     orders = Orders(

@@ -8,7 +8,7 @@ from stommel.messages.database import value_named, word_of
 from stommel.messages.frames import Frame
 from stommel.onboard.execution.motion_io import AT_REST, DriveOutputs, MotionReadings
 from stommel.onboard.execution.motion_node import MotionNode
-from stommel.onboard.execution.motion_settings import MotionSettings
+from stommel.onboard.nodes.motion_settings import MotionSettings
 
 LOW, HIGH = -2.5e-4, 2.5e-4
 AFT, FORE = -0.05, 0.55

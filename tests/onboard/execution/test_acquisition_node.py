@@ -11,9 +11,9 @@ from stommel.messages.database import database_hash, value_named, word_of
 from stommel.messages.frames import Frame
 from stommel.onboard.execution.acquisition_io import AcquisitionReadings
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
-from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
-from stommel.onboard.execution.node_settings import SettingsError
 from stommel.onboard.execution.node_states import Mode
+from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
+from stommel.onboard.nodes.node_settings import SettingsError
 from tests.onboard.execution.test_motion_properties import FRAMES, frame_of
 
 WELL = AcquisitionReadings(

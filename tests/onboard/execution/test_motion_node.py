@@ -11,9 +11,9 @@ from stommel.messages.database import database_hash
 from stommel.messages.parameters import MemoryStore
 from stommel.onboard.execution.motion_io import AT_REST
 from stommel.onboard.execution.motion_node import MotionNode
-from stommel.onboard.execution.motion_settings import MotionSettings
-from stommel.onboard.execution.node_settings import SettingsError
 from stommel.onboard.execution.node_states import TRANSITIONS, Mode
+from stommel.onboard.nodes.motion_settings import MotionSettings
+from stommel.onboard.nodes.node_settings import SettingsError
 from tests.onboard.execution.motion_bench import AFT, HIGH, NO_READINGS, MotionBench
 
 
@@ -380,6 +380,38 @@ def test_a_parameter_holds_at_once_is_kept_within_its_limits_and_outlasts_a_powe
     bench.sync = False
     bench.run(40)
     assert bench.outputs[-1].pump == 1.0
+
+
+def test_what_crept_away_counts_on_after_a_power_cut():
+    """Oracle: the meaning of `oil_crept`, "the node counts on from the value set"."""
+    store = MemoryStore()
+    bench = MotionBench(store=store)
+    assert write(bench, 30, 0.25) == 0
+    bench.say("MotionParameterRequest", operation=6, parameter=0, value=0)
+    bench.run(1)
+    assert MotionNode(MotionSettings(), 1, store).drives.engine.crept == 0.25
+
+
+def test_a_command_to_restart_forgets_what_was_not_saved_as_a_power_cut_does():
+    bench = MotionBench(store=MemoryStore())
+    assert write(bench, 16, 30.0) == 0
+    bench.say("MotionParameterRequest", operation=6, parameter=0, value=0)
+    bench.run(1)
+    assert write(bench, 16, 40.0) == 0
+    assert bench.node.settings.blow_after == 40.0
+    bench.command("Restart")
+    bench.run(1)
+    assert bench.node.settings.blow_after == 30.0
+
+
+def test_reading_a_parameter_touches_nothing():
+    """A double that 32 bits do not hold stays as it was counted."""
+    bench = MotionBench(store=MemoryStore())
+    bench.node.drives.engine.crept = 0.1
+    bench.say("MotionParameterRequest", operation=0, parameter=30, value=0)
+    bench.run(1)
+    assert bench.messages("MotionParameterAnswer")
+    assert bench.node.drives.engine.crept == 0.1
 
 
 def test_a_corrupted_store_is_told_and_the_last_good_copy_holds():

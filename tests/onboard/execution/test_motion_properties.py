@@ -11,7 +11,7 @@ from stommel.messages.database import database
 from stommel.messages.frames import Frame
 from stommel.onboard.execution.motion_io import MotionReadings
 from stommel.onboard.execution.motion_node import MotionNode
-from stommel.onboard.execution.motion_settings import MotionSettings
+from stommel.onboard.nodes.motion_settings import MotionSettings
 from tests.messages.sayings import sayable
 from tests.onboard.execution.motion_bench import HIGH, MotionPlant
 

@@ -1,8 +1,8 @@
 """The example of the guide's page runs, and its comments say what it gives; its tables are those of the code."""
 
-from stommel.onboard.execution.motion_settings import MotionSettings
-from stommel.onboard.execution.node_settings import parameters_of
 from stommel.onboard.execution.node_states import STATES, TRANSITIONS, Mode
+from stommel.onboard.nodes.motion_settings import MotionSettings
+from stommel.onboard.nodes.node_settings import parameters_of
 from tests.support.pages import blocks, guide
 
 

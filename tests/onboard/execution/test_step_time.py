@@ -6,7 +6,7 @@ import pytest
 
 from stommel.messages.codec import Encoder
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
-from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
+from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
 from tests.onboard.execution.motion_bench import MotionBench
 from tests.onboard.execution.test_acquisition_node import WELL
 

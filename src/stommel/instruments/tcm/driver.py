@@ -86,21 +86,27 @@ class CompassDriver:
         self._awaited: int | None = None
         self._asked = self._next = self._heard = self._framed = self._last = float("-inf")
         self._began = float("nan")
+        self._unanswered = float("inf")
         self._good = self._refused = 0
         self.info: ModuleInfo | None = None
         """What it calls itself."""
         self.calibration = Calibration()
 
-    def poll(self, t: float) -> bytes:
-        """Bytes to send now."""
+    @property
+    def interval(self) -> float:
+        """Between two readings [s]."""
+        return self._set.interval
+
+    def poll(self, t: float, *, asked: bool = True) -> bytes:
+        """Bytes to send now; a compass whose readings are asked for may rest meanwhile."""
         out, self._queue = self._queue, b""
         if self._began != self._began:
             self._begin(t, "")
         sampling = self._state is CompassState.SAMPLING
-        if sampling and t - max(self._last, self._began) > self._set.silence:
+        if sampling and t - self._awaited_since(t) > self._set.silence:
             self._begin(t, ": ".join(filter(None, (f"no reading for {self._set.silence:g} s", self._reason))))
         elif sampling:
-            return out + self._demand(t)
+            return out + (self._demand(t) if asked else b"")
         if t - self._asked > self._set.answer_time:
             if self._awaited != Id.MOD_INFO_RESP:
                 self._begin(t, f"frame {self._awaited} did not come")
@@ -168,12 +174,14 @@ class CompassDriver:
         self._state, self._reason = CompassState.STARTING, reason
         self._request = encoded(Id.STOP_INTERVAL_MODE) + encoded(Id.GET_MOD_INFO)
         self._awaited = Id.MOD_INFO_RESP
+        self._unanswered = float("inf")
         self._asked = float("-inf")
         self._began = t
 
     def _demand(self, t: float) -> bytes:
         if not self._set.polled or t < self._next - _EPSILON:
             return b""
+        self._unanswered = min(self._unanswered, t)
         self._next = t + self._set.interval if t - self._next > self._set.interval else self._next + self._set.interval
         return encoded(Id.GET_DATA)
 
@@ -206,7 +214,7 @@ class CompassDriver:
             return None  # of a compass that still sends by itself, in whatever order of bytes
         got = reading(payload, self._set.big_endian, t)
         if isinstance(got, CompassReading):
-            self._last, self._reason = t, ""
+            self._last, self._reason, self._unanswered = t, "", float("inf")
             return got
         self._refused += 1
         self._reason = got
@@ -244,8 +252,16 @@ class CompassDriver:
         known = ", ".join(self._set.revisions)
         self._reason = f"firmware {name} is none of revisions: {known}; name its manual there ({', '.join(MANUALS)})"
 
+    def _awaited_since(self, t: float) -> float:
+        """Since when something is awaited from it [s]; now, if nothing is."""
+        if self._began != self._began:
+            return t
+        if self._set.polled and self._state is CompassState.SAMPLING:
+            return min(self._unanswered, t)
+        return max(self._last, self._began)
+
     def _state_at(self, t: float) -> tuple[CompassState, str]:
-        since = max(self._last, self._began) if self._began == self._began else t
+        since = self._awaited_since(t)
         if self._state is CompassState.SAMPLING and t - since <= self._set.silence:
             return self._state, self._reason
         quiet = self._set.silence

@@ -115,7 +115,7 @@ class Download:
             return
         self._asking.heard(t)
         if self._fetch is not None:
-            self._fetch.wake()
+            self._fetch.wake(t)
         if received.values.get("transfer") != self.transfer or not is_for(received, *self._own):
             return
         try:
@@ -210,12 +210,13 @@ class Download:
             if self._starts >= _MOST_STARTS:
                 raise
             self.reason = f"begun again: {error}"
-            self._open(self.file.identity)
+            self.file = self._wanted = None
             self.state = State.IDENTIFYING
             self._asking.start(t)
             return
         self.state = State.WHOLE
-        self.reason = "" if kept_as == self._name else f"kept as {kept_as}: another file has the name {self._name}"
+        if kept_as != self._name:
+            self.reason = f"kept as {kept_as}: another file has the name {self._name}"
 
     @property
     def _kept(self) -> str:

@@ -20,7 +20,7 @@ MOST_WAIT = 15.0
 _MOST_COPIES = 4
 _UNDOUBLED = 3
 """Waits before they become longer: a radio that loses many frames is not a crowded one."""
-_LOSSY = 0.02
+_LOSSY, _HEAVY = 0.02, 0.5
 _ROOM = 255
 
 
@@ -80,12 +80,13 @@ class Fetch:
         self._budget = 8 * MOST_SEGMENT + self.recovery.missing.bytes // 250
         """Bytes that may be asked for more than once at a time, to save round trips at the end."""
         self._sent_at: dict[int, float] = {}
+        self._probing: dict[int, bool] = {}
         self._serial: int = transfer * 151 % 256 if before is None else before._serial
         """Begins elsewhere in each transfer, for the other end does not obey a number twice."""
         self._epoch: int | None = None if before is None else before._epoch
         """Is another one whenever what was asked for before shall be forgotten."""
         self._is_begun = False
-        self._last_said = self._last_asked = float("-inf")
+        self._last_said = self._last_asked = self._awake = float("-inf")
         self._waits = 0
         self.pace: Pace = Pace() if before is None else before.pace
 
@@ -113,11 +114,12 @@ class Fetch:
         if self._epoch is not None:
             self._epoch = (self._epoch + 1) % 256
 
-    def wake(self) -> None:
-        """The other end is heard again after silence: ask now."""
-        if self._waits:
+    def wake(self, t: float) -> None:
+        """Something came from the other end at a time [s]: if that ends a silence, ask now."""
+        if self._waits and t - self._awake > self.timer.time_out:
             self._waits = 0
             self._last_asked = float("-inf")
+        self._awake = t
 
     def take(self, received: Received, t: float) -> None:
         """Take FILE_DATA of this transfer at a time [s]."""
@@ -125,8 +127,9 @@ class Fetch:
         data = octets(received, "data")[:length]
         if not 0 < length <= MOST_SEGMENT or len(data) != length:
             return
-        self._measure(whole(received, "echo"), t)
-        self.loss.note(whole(received, "number"))
+        echo = whole(received, "echo")
+        self._measure(echo, t)
+        self.loss.note(whole(received, "number"), probing=self._probing.get(echo, False))
         for first, last in self.recovery.missing.within(offset, offset + length):
             self._keeper.write(first, data[first - offset : last - offset], t)
         new = self.recovery.take(serial, offset, length, t)
@@ -166,12 +169,14 @@ class Fetch:
         if self._is_due(t) and outbox.room(Priority.COMMAND) >= _ROOM:
             self._ask(t, outbox)
         elif self._is_begun and t - self._last_said >= STILL_HERE and outbox.room(Priority.COMMAND) >= _ROOM:
-            self._say(t, outbox, self._serial, [])
+            self._say(t, outbox, self._next_serial(), [])
 
     @property
     def _time_out(self) -> float:
+        """How long an answer may take: there and back, and the time of the segments that are being sent."""
         least = FIRST if self.timer.round_trip is None else 0.0
-        return min(max(self.timer.time_out, least) * 2.0 ** min(max(self._waits - _UNDOUBLED, 0), 8), MOST_WAIT)
+        usual = max(self.timer.time_out, least) + 2.0 * self.pace.frame_time(self.loss.share)
+        return min(usual * 2.0 ** min(max(self._waits - _UNDOUBLED, 0), 8), MOST_WAIT)
 
     def _is_overdue(self, t: float) -> bool:
         """Whether what was asked for should have come, or so many frames in a row should have that not all are lost."""
@@ -187,10 +192,17 @@ class Fetch:
             return False
         if not recovery.is_expecting:
             return True
-        if len(recovery.to_ask) >= MOST_RANGES:
+        if len(recovery.to_ask) >= self._most_ranges:
             return True
         spacing = max(self.timer.round_trip or self.timer.time_out, 0.1) / 4.0
         return self._is_running_dry and t - self._last_asked >= spacing
+
+    @property
+    def _most_ranges(self) -> int:
+        """Ranges of a request: it shall be no longer than a segment, where long frames do not come through."""
+        if self.loss.segment < MOST_SEGMENT or self.loss.share > _HEAVY:
+            return min(MOST_RANGES, self.loss.segment // 6)
+        return MOST_RANGES
 
     @property
     def _is_running_dry(self) -> bool:
@@ -204,10 +216,10 @@ class Fetch:
 
     def _ask(self, t: float, outbox: Outbox) -> None:
         serial = self._next_serial()
-        ranges = self.recovery.ask(serial, MOST_RANGES, LONGEST, LONGEST)
+        ranges = self.recovery.ask(serial, self._most_ranges, LONGEST, LONGEST)
         dry = self._is_running_dry
         lossy = self.loss.share > _LOSSY
-        repeats = (3 if self.loss.share > 0.25 else 2) if (dry and lossy) or self._waits else 1
+        repeats = (3 if self.loss.share > 0.25 else 2) if (dry and lossy) or self._waits or not self._is_begun else 1
         for _ in range(repeats):
             self._say(t, outbox, serial, ranges)
         for _ in range(self._copies(ranges) - 1 if dry and lossy else 0):
@@ -250,7 +262,9 @@ class Fetch:
         )  # fmt: skip
         self.counts = self.counts._replace(requests=self.counts.requests + 1)
         self._last_said = t
-        if ranges:
-            self._sent_at.setdefault(serial, t)
-            while len(self._sent_at) > MOST_REQUESTS:
-                del self._sent_at[next(iter(self._sent_at))]
+        self._sent_at.setdefault(serial, t)
+        self._probing.pop(serial, None)
+        self._probing[serial] = self.loss.is_probing
+        for known in (self._sent_at, self._probing):
+            while len(known) > MOST_REQUESTS:
+                del known[next(iter(known))]

@@ -1,6 +1,8 @@
 """A folder of the computer as the disk of received files: the edge, where bytes meet the operating system."""
 
+import errno
 import os
+import stat
 import sys
 from contextlib import suppress
 from pathlib import Path
@@ -21,7 +23,10 @@ class FolderDisk:
 
     def read(self, name: str, offset: int, length: int) -> bytes:
         """Bytes of a file; fewer at its end."""
-        with (self.folder / name).open("rb") as file:
+        path = self.folder / name
+        if not stat.S_ISREG(path.lstat().st_mode):
+            raise OSError(errno.EINVAL, "is no regular file", name)  # a pipe would be waited for
+        with path.open("rb") as file:
             file.seek(offset)
             return file.read(length)
 

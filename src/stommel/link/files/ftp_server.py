@@ -11,7 +11,7 @@ from typing import NamedTuple
 from stommel.link.files import ftp_words
 from stommel.link.files.ftp_sessions import IDLE, Burst, FtpSessions, OpenFile, Peer
 from stommel.link.files.ftp_words import MOST_DATA, Opcode, Words, acknowledgement, refusal
-from stommel.link.files.paths import plain_path, shown
+from stommel.link.files.paths import file_path, plain_path, shown
 from stommel.link.files.port import FilePort, FileRefusalError, FtpError, Path
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
@@ -145,15 +145,15 @@ class FtpServer:
         return acknowledgement(question, data)
 
     def _open_to_read(self, peer: Peer, question: Words, t: float) -> Words:
-        path = _file(question.text)
+        path = file_path(question.text)
         return self._opened(peer, question, OpenFile(path, self._port.size(path), None), t)
 
     def _create(self, peer: Peer, question: Words, t: float) -> Words:
-        path = _file(question.text)
+        path = file_path(question.text)
         return self._opened(peer, question, OpenFile(path, 0, self._port.stage(path, from_old=False)), t)
 
     def _open_to_write(self, peer: Peer, question: Words, t: float) -> Words:
-        path = _file(question.text)
+        path = file_path(question.text)
         staged = self._port.stage(path, from_old=True)
         return self._opened(peer, question, OpenFile(path, staged.size, staged), t)
 
@@ -210,7 +210,7 @@ class FtpServer:
         return acknowledgement(question, len(question.data).to_bytes(4, "little"))
 
     def _truncate(self, _peer: Peer, question: Words, _t: float) -> Words:
-        path = _file(question.text)
+        path = file_path(question.text)
         staged = self._port.stage(path, from_old=True)
         try:
             staged.truncate(question.offset)
@@ -224,13 +224,13 @@ class FtpServer:
         names = question.data.split(b"\0")
         if len(names) < 2:
             raise FileRefusalError(FtpError.INVALID_DATA_SIZE, "rename: needs two paths")
-        old, new = (_file(name.decode("utf-8", "replace")) for name in names[:2])
+        old, new = (file_path(name.decode("utf-8", "replace")) for name in names[:2])
         self._port.rename(old, new)
         return acknowledgement(question)
 
     def _crc(self, _peer: Peer, question: Words, _t: float) -> Words:
         """CRC-32 as ground stations compute it: from 0, and not inverted at its end."""
-        path = _file(question.text)
+        path = file_path(question.text)
         size = self._port.size(path)
         if size > _MOST_CRC:
             raise FileRefusalError(
@@ -243,14 +243,7 @@ class FtpServer:
 
     def _on_path(self, act: Callable[[Path], None]) -> Callable[[Peer, Words, float], Words]:
         def obey(_peer: Peer, question: Words, _t: float) -> Words:
-            act(_file(question.text))
+            act(file_path(question.text))
             return acknowledgement(question)
 
         return obey
-
-
-def _file(text: str) -> Path:
-    path = plain_path(text)
-    if not path:
-        raise FileRefusalError(FtpError.FAIL, "the root is no file")
-    return path

@@ -14,8 +14,8 @@ _WINDOW = 400.0
 _ENOUGH = 12.0
 """Lost frames of a size, without which nothing is concluded."""
 _PROBE_ABOVE = 0.03
-_SURE = 24.0
-"""Short frames that settle that the segment stays, until `_PROBE_AGAIN` frames later."""
+_SURE, _NEAR = 250.0, 0.7
+"""Short frames, or nearness of the worst that may be, that settle that the segment stays for `_PROBE_AGAIN` frames."""
 _PROBE_AGAIN = 1000
 
 
@@ -65,18 +65,18 @@ class LossBySize:
         """The next frame counts from wherever it is: the sender has begun anew."""
         self._next = None
 
-    def note(self, number: int) -> None:
-        """Note the number of a frame that came; 16 bits that go round."""
+    def note(self, number: int, *, probing: bool = False) -> None:
+        """Note the number of a frame that came, 16 bits that go round, and whether its sender makes short ones."""
         ahead = 0 if self._next is None else (number - self._next) & 0xFFFF
         if ahead >= 0x8000:
             return  # one that was overtaken: it was counted as lost, and that is forgiven by the average
         if ahead < 4096:  # more is silence, not loss
             skipped = [(number - k) & 0xFFFF for k in range(1, ahead + 1)]
-            short = sum(each % SHORT_EVERY == 0 for each in skipped) if self.is_probing else 0
+            short = sum(each % SHORT_EVERY == 0 for each in skipped) if probing else 0
             self._whole.note(0, ahead - short)
             self._short.note(0, short)
             self.frames_lost += ahead
-        is_short = self.is_probing and number % SHORT_EVERY == 0
+        is_short = probing and number % SHORT_EVERY == 0
         (self._short if is_short else self._whole).note(1, 0)
         self.frames_came += 1
         self._next = (number + 1) & 0xFFFF
@@ -96,7 +96,7 @@ class LossBySize:
             if best != self.segment:
                 self.segment = best
                 self._whole, self._short = _Size(), _Size()
-            elif short.total >= _SURE:
+            elif short.total >= _SURE or best_segment(by_byte + doubt) > _NEAR * self.segment:
                 self.is_probing, self._probe_at = False, counted + _PROBE_AGAIN
         return self.segment
 

@@ -25,6 +25,20 @@ def plain_path(text: str) -> Path:
     return names
 
 
+def file_path(text: str) -> Path:
+    """Return the names of a path that is not the root.
+
+    Raises
+    ------
+    FileRefusalError
+        It leads out of the root, is the root, or has a name that is none.
+    """
+    path = plain_path(text)
+    if not path:
+        raise FileRefusalError(FtpError.FAIL, "the root is no file")
+    return path
+
+
 def shown(path: Path) -> str:
     """A path in words."""
     return "/".join(path) or "/"

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from stommel.errors import StommelError
 from stommel.link.files.fetching import Fetch
-from stommel.link.files.paths import plain_path
+from stommel.link.files.paths import file_path
 from stommel.link.files.port import FilePort, FileRefusalError, FileResult, Part
 from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox
@@ -14,6 +14,7 @@ MOST_INCOMING = 4
 FORGOTTEN = 900.0
 """An offer of which nothing was heard for so long is closed; what has come of it stays on the disk [s]."""
 _REMEMBERED = 16
+_UNKNOWN_EVERY = 0.5
 Key = tuple[tuple[int, int], int]
 """System and component of whoever offers, and the number of the transfer."""
 
@@ -44,6 +45,7 @@ class Receiving:
         self._port = port
         self._incoming: dict[Key, _Incoming] = {}
         self._ended: dict[Key, tuple[_Offer, Outcome]] = {}
+        self._said_unknown = float("-inf")
         self.outcomes: list[tuple[Key, Outcome]] = []
         """To be said; whoever says them takes them out."""
 
@@ -56,7 +58,7 @@ class Receiving:
             self.outcomes.append((key, ended[1]))
         elif incoming is not None and incoming.offer == offer:
             incoming.heard = t
-            incoming.fetch.wake()
+            incoming.fetch.wake(t)
         else:
             self._begin(key, offer, t)
 
@@ -69,7 +71,7 @@ class Receiving:
             self.outcomes.append((key, Outcome(FileResult.NO_ROOM, f"{MOST_INCOMING} files are received already")))
             return
         try:
-            part = self._port.receive(plain_path(offer.path), offer.size, offer.sha256)
+            part = self._port.receive(file_path(offer.path), offer.size, offer.sha256)
         except StommelError as error:
             self._end(key, offer, _refusal(error))
             return
@@ -80,6 +82,7 @@ class Receiving:
         key = ((received.system, received.component), whole(received, "transfer"))
         incoming = self._incoming.get(key)
         if incoming is None:
+            self._unknown(key, t)
             return
         incoming.heard = t
         try:
@@ -87,6 +90,12 @@ class Receiving:
         except StommelError as error:
             self._close(key)
             self._end(key, incoming.offer, _refusal(error))
+
+    def _unknown(self, key: Key, t: float) -> None:
+        """Somebody goes on with what this end has forgotten by a restart; say so now and then."""
+        if key not in self._ended and t - self._said_unknown >= _UNKNOWN_EVERY:
+            self._said_unknown = t
+            self.outcomes.append((key, Outcome(FileResult.UNKNOWN, "offer it again")))
 
     def poll(self, t: float, outbox: Outbox) -> None:
         """Ask for what is missing, and end what is whole."""

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from stommel.link.files.ranges import Range, Ranges
 
 REORDERED = 3
-"""Frames that must have come after a byte before it counts as lost."""
+"""Frames that must have come that were to come after a byte, before it counts as lost."""
 OVERTAKEN = 0.06
 """Time after which an overtaken byte counts as lost [s], if there are no more frames."""
 MOST_REQUESTS = 64
@@ -96,7 +96,7 @@ class Recovery:
         for number, ranges in tuple(self._asked.items()):
             before = ranges.within(0, offset) if number == serial else list(ranges)
             for each in before:
-                self._overtaken.append((self._frames, t, each))
+                self._overtaken.append((self._frames - 1, t, each))
                 ranges.remove(*each)
             if number == serial:
                 break

@@ -37,6 +37,7 @@ class Release:
         self.transfer = transfer_number("release", own, identity.path)
         self._asking = Asking(timer, patience)
         self.state, self.reason = State.OFFERING, ""
+        self._said = 0
 
     def take(self, received: Received, t: float) -> None:
         """Take a message at a time [s]."""
@@ -48,7 +49,7 @@ class Release:
             return
         result = FileResult(whole(received, "result"))
         # It was deleted before, and the answer was lost.
-        is_gone = result is FileResult.NOT_FOUND and self._asking.tries > 1
+        is_gone = result is FileResult.NOT_FOUND and self._said > 1
         self.state = State.WHOLE if result is FileResult.OK or is_gone else State.REFUSED
         self.reason = "" if self.state is State.WHOLE else text(received, "reason") or result.name
 
@@ -71,3 +72,4 @@ class Release:
                 },
             )  # fmt: skip
             self._asking.asked(t)
+            self._said += 1

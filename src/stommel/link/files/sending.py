@@ -69,10 +69,10 @@ class Transfer:
             self.forget_requests()
             self._epoch = values["epoch"]
         serial = values["serial"]
+        if serial in self._obeyed:
+            return
         self._segment = min(max(values["segment"], 1), MOST_SEGMENT)
         self._probe = bool(values["flags"] & PROBE)
-        if serial in self._obeyed or not values["count"]:
-            return
         self._obeyed.append(serial)
         self._echo = serial
         for first, last in unpacked_ranges(values["base"], values["count"], packed):
@@ -125,7 +125,7 @@ class Sender:
         self.broken: list[Broken] = []
         """Transfers that ended because their file cannot be read; whoever looks takes them out."""
 
-    def open(self, peer: Peer, number: int, transfer: Transfer, t: float) -> None:
+    def begin(self, peer: Peer, number: int, transfer: Transfer, t: float) -> None:
         """Begin a transfer; the one that was silent longest gives way. The same one goes on."""
         there = self._transfers.get((peer, number))
         if there is not None and there.of == transfer.of and there.size == transfer.size:

@@ -4,7 +4,7 @@ from collections import deque
 
 from stommel.link.files.digests import Digests
 from stommel.link.files.ftp_server import FtpServer
-from stommel.link.files.paths import plain_path, shown
+from stommel.link.files.paths import file_path, shown
 from stommel.link.files.port import FilePort, FileRefusalError, FileResult, FtpError, Path
 from stommel.link.files.receiving import Receiving
 from stommel.link.files.sending import Peer, Sender, Transfer
@@ -74,7 +74,7 @@ class FileServer:
         if (peer, number) in self._digests:
             return  # asked again while it is being summed
         try:
-            path = plain_path(text(received, "path"))
+            path = file_path(text(received, "path"))
             there = min(self._port.size(path), _MOST_SIZE - 1)
             if length != _MOST_SIZE and length > there:
                 reason = f"{shown(path)}: has {there} bytes, {length} were asked for"
@@ -93,7 +93,7 @@ class FileServer:
             self._answer_identity(peer, number, found.result, 0, reason=str(found))
             return
         transfer = Transfer(size, lambda offset, length: self._port.read(path, offset, length), path)
-        self._sender.open(peer, number, transfer, t)
+        self._sender.begin(peer, number, transfer, t)
         self._answer_identity(peer, number, FileResult.OK, size, sha256=found)
 
     def _request(self, received: Received, t: float) -> None:
@@ -126,7 +126,7 @@ class FileServer:
         if key in self._digests:
             return
         try:
-            path = plain_path(text(received, "path"))
+            path = file_path(text(received, "path"))
             there = self._port.size(path)
             if there != size:
                 self._answer_outcome(peer, number, FileResult.CHANGED, f"has {there} bytes, not {size}: not deleted")

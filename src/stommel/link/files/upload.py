@@ -84,9 +84,17 @@ class Upload:
         if received.name == "FILE_REQUEST":
             self._request(received, t)
         elif received.name == "FILE_OUTCOME":
-            result, reason = FileResult(whole(received, "result")), text(received, "reason")
-            self.state = State.WHOLE if result is FileResult.OK else State.REFUSED
-            self.reason = "" if result is FileResult.OK else reason or result.name
+            self._end_or_offer(FileResult(whole(received, "result")), text(received, "reason"), t)
+
+    def _end_or_offer(self, result: FileResult, reason: str, t: float) -> None:
+        if result is FileResult.UNKNOWN:
+            if self._heard > float("-inf"):
+                self.resume(t)
+                self._sender.forget_requests(self._peer, self.transfer)
+        elif result is FileResult.OK:
+            self.state, self.reason = State.WHOLE, ""
+        elif result is not FileResult.NO_ROOM:  # room may come
+            self.state, self.reason = State.REFUSED, reason or result.name
 
     def _request(self, received: Received, t: float) -> None:
         if self._heard == float("-inf"):
@@ -95,7 +103,7 @@ class Upload:
         self._asking.goes_on(t)
         if not self._sender.request(received, t):
             transfer = Transfer(len(self._content), self._read, self.path)
-            self._sender.open((received.system, received.component), self.transfer, transfer, t)
+            self._sender.begin((received.system, received.component), self.transfer, transfer, t)
             self._sender.request(received, t)
 
     def _read(self, offset: int, length: int) -> bytes:

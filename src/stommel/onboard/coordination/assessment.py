@@ -62,7 +62,7 @@ def situation_of(seen: Perception, inside: Inside, readings: Readings, t: float)
         acquisition_silent=watch.is_silent(ACQUISITION, t),
         motion_refused=watch.is_refused(MOTION),
         acquisition_refused=watch.is_refused(ACQUISITION),
-        unknown_nodes=watch.strangers,
+        unknown_nodes=len(watch.strangers),
         compass_silent=silent.compass,
         gps_silent=inside.gps_silent,
         ctd_silent=inside.ctd_silent,

@@ -5,45 +5,35 @@ from collections.abc import Iterable, Mapping
 from stommel.control.commands import Commands
 from stommel.control.dive_cycle import SURFACE
 from stommel.control.orders import Orders
-from stommel.instruments.gnss.driver import GnssDriver, GnssState
-from stommel.instruments.gnss.fix import Fix
-from stommel.instruments.radio import Radio
-from stommel.instruments.tcm.driver import CompassDriver
 from stommel.messages.codec import Encoder
 from stommel.messages.database import COORDINATOR, MOTION, value_named
 from stommel.messages.frames import Frame
 from stommel.messages.nodes import HeartbeatSender, NodeState
 from stommel.onboard.coordination.assessment import Inside, situation_of
-from stommel.onboard.coordination.compass.calibration import running_bits
-from stommel.onboard.coordination.compass.compensation import CompassCompensation
 from stommel.onboard.coordination.deciding import Decide, Pilot
 from stommel.onboard.coordination.engine_proof import EngineProof, Oil
 from stommel.onboard.coordination.executive import FLOWN, Executive, ExecutiveState, State
 from stommel.onboard.coordination.executive_commands import commands as commands_of
+from stommel.onboard.coordination.health import CTD, GPS, RADIO, Health
 from stommel.onboard.coordination.logbook.logbook import Logbook
 from stommel.onboard.coordination.navigation import NavigationEstimate, Navigator
+from stommel.onboard.coordination.node_parameters import NodeParameters
 from stommel.onboard.coordination.nodes_control import NodesControl
+from stommel.onboard.coordination.own_instruments import OwnInstruments
 from stommel.onboard.coordination.perception import Perception
 from stommel.onboard.coordination.power import BatteryAccount, BatteryEstimate, Sleeper, wakes
 from stommel.onboard.coordination.recording import Recorder
 from stommel.onboard.coordination.safety import SafetyMonitor, standing_alarms
 from stommel.onboard.coordination.settings import CoordinatorSettings
-from stommel.onboard.coordination.situation import NO_REQUESTS, OperatorRequests
+from stommel.onboard.coordination.situation import NO_REQUESTS, OperatorRequests, Situation
+from stommel.onboard.coordination.sources import Periods, Sources
 from stommel.onboard.coordination.stores.continuity import Continuity, ContinuityStore
 from stommel.onboard.coordination.view import View
 
-COMPASS, GNSS, RADIO = "compass", "gnss", "radio"
-PORTS = (COMPASS, GNSS, RADIO)
-"""Serial ports of the coordinator."""
-
-GPS_PATIENCE = 10.0
-"""Time after switching on in which a receiver need not say anything [s]."""
 PROVING_TIME = 45.0
 """Before a dive, in which the drives prove themselves again: a test that finds a dead pump takes half a minute [s]."""
 CTD_PATIENCE = 10.0
 """Time beyond two intervals without a sample, after which the payload is silent [s]."""
-
-
 LATEST_TIME = 1e9
 """The greatest time that Sync can say [s]."""
 
@@ -80,15 +70,15 @@ class Coordinator:
         self.pilot = Pilot(decision)
         self.safety = SafetyMonitor(settings.safety, settings.has_drop_weight, before.standing)
         self.executive = Executive(started=before.started)
-        self.compass, self.gnss, self.radio = CompassDriver(settings.compass), GnssDriver(settings.gnss), Radio()
+        self.instruments = OwnInstruments(settings, self.perception)
         self.recorder = Recorder(logbook, settings.report_every)
         self.view: View | None = None
         self.expires = float("inf")
         """Time at which the mission's time is over [s]."""
-        self._compensation = CompassCompensation(settings.calibration, settings.masking, settings.declination)
         self._encoder = Encoder()
         self._heartbeat = HeartbeatSender(COORDINATOR, self._encoder, before.starts, settings.kind)
         self._nodes = NodesControl.of(self._encoder, before.starts)
+        self.parameters = NodeParameters(self._encoder, settings.node_parameters)
         self._proof = EngineProof(settings.actuators.V_b_least, settings.actuators.V_b_greatest)
         self._navigator: Navigator | None = None
         usable = settings.usable_energy
@@ -98,11 +88,10 @@ class Coordinator:
         self.mission = before.mission
         """Number of the mission that is flown; 0 for none."""
         self._requests = NO_REQUESTS
-        self.fix: Fix | None = None
-        """The last position by GPS that was believed."""
-        self._fix_sigma: float | None = None
         self._was_surfaced = True
-        self._radio_since = self._sampling_since = float("inf")
+        self._sources = Sources(self.perception, self.instruments, t, has_altimeter=settings.has_altimeter)
+        self.health = self._sources.monitor
+        self._sample_every = settings.schedule.ctd[self.pilot.phase]
 
     def request(self, requests: OperatorRequests) -> None:
         """Ask for something, at the next decision, beside what was asked before it."""
@@ -154,9 +143,10 @@ class Coordinator:
         seen = self.perception
         for received in seen.take(frames, t):
             self._nodes.take(received, t)
+            self.parameters.take(received, t)
             self.recorder.received(received, t)
             self._sleeper.hear(wakes(received))
-        self._hear(t, bytes_in)
+        self.instruments.hear(t, bytes_in, self.pilot.phase)
         aborts = self.view is not None and self.view.executive.state is State.ABORT
         if self.view is not None and not self._sleeper.due(t, self.pilot.phase, aborts) and not self._is_asked:
             return self._keep_alive(t), self._ask(t, self.view.commands)
@@ -183,7 +173,11 @@ class Coordinator:
         state = self.executive.update(situation, safety, requests)
         control = pilot.step(readings, state, t, self._sleeper.elapsed)
         commands = self._floats_until_proven(t, state, commands_of(state, control, self.settings.actuators))
-        self.view = view = View(t, situation, safety, state, commands, self._navigate(t), self._account(t))
+        health = self._look_after(situation, t)
+        outcomes = self.parameters.outcomes()
+        self.view = view = View(
+            t, situation, safety, state, commands, health, outcomes, self._navigate(t), self._account(t)
+        )
         self.recorder.decided(view, pilot, readings, self._nodes.outcomes(), seen)
         return view
 
@@ -197,6 +191,11 @@ class Coordinator:
         V_b = self._proof.allowed(t, pilot.phase, commands.V_b, pilot.orders.dives.V_b_climb, oil)
         return commands if V_b == commands.V_b else commands._replace(V_b=V_b)
 
+    def _look_after(self, situation: Situation, t: float) -> Health:
+        """Say of each node and instrument how it does."""
+        compass_every = self.instruments.compass_every(self.pilot.phase)
+        return self._sources.look(situation, Periods(compass_every, self.settings.gnss.interval, self._sample_every), t)
+
     def _navigate(self, t: float) -> NavigationEstimate | None:
         """Follow how far the position may be wrong."""
         memory = self.pilot.memory
@@ -204,8 +203,7 @@ class Coordinator:
             return None
         if self._navigator is None:
             self._navigator = Navigator(self.settings.navigation)
-        sigma, self._fix_sigma = self._fix_sigma, None
-        return self._navigator.update(memory, t, sigma)
+        return self._navigator.update(memory, t, self.instruments.take_fix_sigma())
 
     def _account(self, t: float) -> BatteryEstimate | None:
         """Follow what is left in the battery."""
@@ -227,42 +225,17 @@ class Coordinator:
         kept = Continuity(self._before.starts + 1, executive.started, standing, self.mission, waypoint, used)
         self._store.keep(kept)
 
-    def _hear(self, t: float, bytes_in: Mapping[str, bytes]) -> None:
-        """Let the drivers make readings of the ports' bytes."""
-        seen = self.perception
-        drives = seen.latest.get("MotionDrives", {})
-        for got in self.compass.take(bytes_in.get(COMPASS, b""), t):
-            running = running_bits(
-                bool(drives.get("pump_running")), bool(drives.get("valve_open")), bool(drives.get("mass_moving")),
-                bool(drives.get("steering_moving")),
-            )  # fmt: skip
-            estimate = self._compensation.update(got.t, got.acceleration, got.magnetic_field, running)
-            attitude = seen.attitude
-            attitude.at, attitude.theta, attitude.psi = t, estimate.pitch, estimate.heading
-            attitude.down_b2, attitude.down_b3 = estimate.down_b2, estimate.down_b3
-            attitude.gravity, attitude.field = _length(got.acceleration), _length(got.magnetic_field)
-        if bytes_in.get(GNSS):
-            depth = seen.value("Depth", "depth", float("nan"))
-            for outcome in self.gnss.take(bytes_in[GNSS], t, depth):
-                if isinstance(outcome, Fix):
-                    self.fix, self._fix_sigma = outcome, outcome.sigma
-                    seen.take_fix(outcome.t - outcome.age, outcome.latitude, outcome.longitude)
-        self.radio.take(bytes_in.get(RADIO, b""), t)
-
     def _inside(self, t: float) -> Inside:
         pilot, seen = self.pilot, self.perception
-        gps_on = t - self._radio_since
-        speaks = (GnssState.SEARCHING, GnssState.FIXED, GnssState.REFUSED)
-        gps_silent = gps_on > GPS_PATIENCE and self.gnss.health(t).state not in speaks
         heard = seen.heard.get("CtdSample", float("-inf"))
-        ctd_silent = t - max(heard, self._sampling_since) > 2.0 * self.settings.sample_interval + CTD_PATIENCE
+        ctd_silent = t - max(heard, self.health.since(CTD)) > 2.0 * self._sample_every + CTD_PATIENCE
         return Inside(
             phase=pilot.phase,
             event=pilot.event,
             alarm=pilot.alarm,
             submerged_since=pilot.submerged_since,
             coming_up=self.view is not None and self.view.executive.coming_up,
-            gps_silent=gps_silent,
+            gps_silent=self.instruments.gps_silent(self.health.since(GPS), t),
             ctd_silent=ctd_silent,
             mission_present=pilot.orders is not None,
             mission_expired=t >= self.expires,
@@ -273,9 +246,14 @@ class Coordinator:
         )
 
     def _note_switches(self, commands: Commands, t: float) -> None:
-        """Remember since when receiver and payload are on."""
-        self._radio_since = min(self._radio_since, t) if commands.radio else float("inf")
-        self._sampling_since = min(self._sampling_since, t) if commands.sampling else float("inf")
+        """Remember since when receiver, radio and payload are on."""
+        self.health.switch(GPS, commands.radio, t)
+        self.health.switch(RADIO, commands.radio, t)
+        every = self.settings.schedule.ctd[self.pilot.phase]
+        if every != self._sample_every:
+            self._sample_every = every
+            self.health.switch(CTD, False, t)  # what was heard at another interval says nothing of this one
+        self.health.switch(CTD, commands.sampling, t)
 
     def _dives_soon(self, state: ExecutiveState, t: float) -> bool:
         """Whether the stay at the surface is nearly over: a pump that died since it last ran must be found up here."""
@@ -305,28 +283,19 @@ class Coordinator:
                 loads=commands.loads,
                 sampling=commands.sampling,
                 surface_radio=commands.radio,
-                sample_interval=self.settings.sample_interval,
+                sample_interval=self._sample_every,
             )
         )
         frames += self._nodes.step(self.perception.watch, state, t, dives_soon=self._dives_soon(state, t))
+        frames += self.parameters.step(self.perception.watch, t)
         frames += self._heartbeat.poll(t, NodeState.Operational)
         return frames
 
     def _ask(self, t: float, commands: Commands) -> dict[str, bytes]:
-        """Bytes to the instruments; those without power are not asked."""
-        out = {COMPASS: self.compass.poll(t)}
-        if commands.radio and self.settings.schedule.gps[self.pilot.phase]:
-            out[GNSS] = self.gnss.poll(t)
-        if commands.radio:
-            out[RADIO] = self.radio.poll(t)
-        return out
+        phase = self.pilot.phase
+        return self.instruments.ask(t, commands, phase, self._sleeper.sleeps_until(phase))
 
 
 def _sayable(t: float) -> float:
     """A time as a frame can say it [s]: a clock that is wrong must not keep the software from speaking."""
     return min(max(t, 0.0), LATEST_TIME)
-
-
-def _length(vector: tuple[float, float, float]) -> float:
-    x, y, z = vector
-    return float((x * x + y * y + z * z) ** 0.5)

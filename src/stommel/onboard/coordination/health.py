@@ -1,37 +1,27 @@
 """Health: of each node and instrument how much was heard, lost and refused, how long ago, and one word for it.
 
+Nothing is counted here that another part counts: `Told` is what decoder, watch of the nodes and drivers know of a
+source. Health adds since when a source has power, how often it has fallen silent, and the word.
+
 One lost frame is a count, not an alarm: a source is late after one missed period, and silent only after several.
 """
 
 import math
+from collections.abc import Collection, Sequence
 from enum import Enum
 from typing import NamedTuple
 
 from stommel.errors import StommelError
 
-
-class Source(NamedTuple):
-    """Something that is to be heard again and again."""
-
-    name: str
-    period: float
-    """Between two messages [s]."""
-    missed: int
-    """Periods without a message after which it is silent."""
-
-
+MOTION_NODE, ACQUISITION_NODE = "motion node", "acquisition node"
+COMPASS, GPS, CTD, RADIO = "compass", "GPS", "CTD", "radio"
+PRESSURE_SENSOR, ALTIMETER, BATTERY_GAUGE = "pressure sensor", "altimeter", "battery gauge"
 SOURCES = (
-    Source("motion node", 1.0, 5),
-    Source("acquisition node", 1.0, 5),
-    Source("compass", 1.0, 5),
-    Source("GPS", 1.0, 10),
-    Source("CTD", 1.0, 10),
-    Source("pressure sensor", 1.0, 5),
-    Source("altimeter", 1.0, 10),
-    Source("battery gauge", 1.0, 5),
-    Source("radio", 60.0, 5),
-)
-"""What the paper's vehicle listens to."""
+    MOTION_NODE, ACQUISITION_NODE, COMPASS, GPS, CTD, PRESSURE_SENSOR, ALTIMETER, BATTERY_GAUGE, RADIO,
+)  # fmt: skip
+"""What the paper's vehicle listens to, in the order of every snapshot."""
+LATE_AFTER = 1.5
+"""Periods without a message after which a source is late."""
 
 
 class Condition(Enum):
@@ -45,29 +35,48 @@ class Condition(Enum):
     REFUSED = "refused"
 
 
+CONDITIONS = tuple(condition.value for condition in Condition)
+"""As a record of the log numbers them."""
 CONDITION_WORDS = {
-    Condition.OFF: "switched off, nothing is expected",
-    Condition.WAITING: "switched on, not heard yet, and not for long",
+    Condition.OFF: "switched off, or not fitted: nothing is expected",
+    Condition.WAITING: "switched on, and has said nothing of use since: a GPS looks for its satellites",
     Condition.WELL: "heard within its period",
     Condition.LATE: "a period or more is missing: a count, no alarm",
-    Condition.SILENT: "so many periods are missing that nothing more is expected",
+    Condition.SILENT: "so many periods are missing that safety expects nothing more",
     Condition.REFUSED: "heard, but of another version",
 }
 
 
-class SourceHealth(NamedTuple):
-    """What is known of one source."""
+class Told(NamedTuple):
+    """What other parts know of a source; counts since their start."""
 
-    name: str
-    condition: Condition
-    age: float
-    """Since it was last heard [s]; not a number before."""
+    period: float
+    """Between two messages [s]."""
+    heard_at: float
+    """When it was last heard [s]; minus infinity before."""
     heard: int
     """Good messages."""
     lost: int
     """Messages that are missing between those, by their counters."""
     rejected: int
     """Messages that were not believed: wrong checksum, repeated, out of range."""
+    silent: bool
+    """Whether so many periods are missing that nothing more is expected."""
+    refused: bool = False
+    """Whether it is a node of another version."""
+    restarts: int = 0
+
+
+class SourceHealth(NamedTuple):
+    """What is known of one source; counts as in `Told`."""
+
+    name: str
+    condition: Condition
+    age: float
+    """Since it was last heard [s]; not a number before."""
+    heard: int
+    lost: int
+    rejected: int
     silences: int
     """How often it has fallen silent."""
     restarts: int
@@ -79,12 +88,9 @@ class Health(NamedTuple):
     t: float
     """Time of the vehicle [s]."""
     sources: tuple[SourceHealth, ...]
+    """In the order of `SOURCES`."""
     unknown: tuple[int, ...]
     """Identifiers on the bus that the database does not know."""
-    alarms: tuple[str, ...]
-    """Names of the active alarms of safety."""
-    unproven: tuple[str, ...]
-    """Names of the start checks that have not passed."""
 
 
 class UnknownSourceError(StommelError):
@@ -92,102 +98,80 @@ class UnknownSourceError(StommelError):
 
 
 class _Record:
-    """Counts of one source."""
+    """What is remembered of one source."""
 
-    __slots__ = ("age_from", "heard", "heard_at", "lost", "on", "refused", "rejected", "restarts", "silences", "silent")
+    __slots__ = ("silences", "silent", "since")
 
     def __init__(self) -> None:
-        self.on = self.refused = self.silent = False
-        self.heard = self.lost = self.rejected = self.restarts = self.silences = 0
-        self.heard_at = math.nan
-        self.age_from = math.nan
-        """When it was last heard, or switched on if that is later [s]."""
+        self.since = math.inf
+        """When it was switched on [s]; infinite while it is off."""
+        self.silent = False
+        self.silences = 0
 
 
 class HealthMonitor:
-    """Counts what is heard.
+    """Puts together what is known of every source.
 
     Parameters
     ----------
     sources
-        What to listen to; each is off until it is switched on.
+        Names of what is listened to; each is off until it is switched on.
     """
 
-    def __init__(self, sources: tuple[Source, ...] = SOURCES) -> None:
-        self._sources = {source.name: source for source in sources}
-        self._records = {source.name: _Record() for source in sources}
-        self._unknown: set[int] = set()
+    def __init__(self, sources: tuple[str, ...] = SOURCES) -> None:
+        self._records = {name: _Record() for name in sources}
+        self._unknown: tuple[int, ...] = ()
 
     def switch(self, name: str, on: bool, t: float) -> None:
-        """Say whether messages of a source are expected; its age counts from here."""
+        """Say whether messages of a source are expected, from a time on [s]."""
         record = self._record(name)
-        if on and not record.on:
-            record.age_from, record.silent = t, False
-        record.on = on
+        record.since = min(record.since, t) if on else math.inf
 
-    def hear(self, name: str, t: float, lost: int = 0) -> None:
-        """Count a good message, and those that are missing before it."""
-        record = self._record(name)
-        record.heard += 1
-        record.lost += lost
-        record.heard_at = record.age_from = t
-        record.silent = False
+    def since(self, name: str) -> float:
+        """When a source was switched on [s]; infinite while it is off."""
+        return self._record(name).since
 
-    def reject(self, name: str) -> None:
-        """Count a message that was not believed."""
-        self._record(name).rejected += 1
+    def snapshot(self, t: float, told: Sequence[Told], strangers: Collection[int] = ()) -> Health:
+        """Return all of it as it is now.
 
-    def restarted(self, name: str) -> None:
-        """Count a restart."""
-        self._record(name).restarts += 1
-
-    def refuse(self, name: str, refused: bool) -> None:
-        """Say whether a node is of another version."""
-        self._record(name).refused = refused
-
-    def meet_stranger(self, identifier: int) -> None:
-        """Note an identifier that the database does not know."""
-        self._unknown.add(identifier)
-
-    @property
-    def unknown(self) -> int:
-        """Number of unknown identifiers so far."""
-        return len(self._unknown)
-
-    def silent(self, name: str, t: float) -> bool:
-        """Whether a source that is switched on has missed so many periods that nothing more is expected."""
-        record, source = self._record(name), self._sources[name]
-        silent = record.on and t - record.age_from > source.missed * source.period
-        if silent and not record.silent:
-            record.silences += 1
-        record.silent = silent
-        return silent
-
-    def snapshot(self, t: float, alarms: tuple[str, ...] = (), unproven: tuple[str, ...] = ()) -> Health:
-        """Return all of it as it is now."""
-        sources = tuple(self._health(name, t) for name in self._sources)
-        return Health(t, sources, tuple(sorted(self._unknown)), alarms, unproven)
-
-    def _health(self, name: str, t: float) -> SourceHealth:
-        silent, record = self.silent(name, t), self._records[name]
-        if not record.on:
-            condition = Condition.OFF
-        elif record.refused:
-            condition = Condition.REFUSED
-        elif silent:
-            condition = Condition.SILENT
-        elif not record.heard_at >= record.age_from:
-            condition = Condition.WAITING
-        else:
-            late = t - record.heard_at > 1.5 * self._sources[name].period
-            condition = Condition.LATE if late else Condition.WELL
-        return SourceHealth(
-            name, condition, t - record.heard_at, record.heard, record.lost, record.rejected, record.silences,
-            record.restarts,
-        )  # fmt: skip
+        Parameters
+        ----------
+        t
+            Time of the vehicle [s].
+        told
+            Of each source, in their order.
+        strangers
+            Identifiers that the database does not know; they only become more.
+        """
+        if len(strangers) != len(self._unknown):
+            self._unknown = tuple(sorted(strangers))
+        records = self._records.items()
+        sources = tuple([_health(name, record, of, t) for (name, record), of in zip(records, told, strict=True)])
+        return Health(t, sources, self._unknown)
 
     def _record(self, name: str) -> _Record:
         try:
             return self._records[name]
         except KeyError:
             raise UnknownSourceError(f"{name}: is no source; known are {', '.join(self._records)}") from None
+
+
+def _health(name: str, record: _Record, of: Told, t: float) -> SourceHealth:
+    on = record.since != math.inf
+    silent = on and of.silent
+    record.silences += silent and not record.silent
+    record.silent = silent
+    age = t - of.heard_at
+    if not on:
+        condition = Condition.OFF
+    elif of.refused:
+        condition = Condition.REFUSED
+    elif silent:
+        condition = Condition.SILENT
+    elif of.heard_at < record.since:
+        condition = Condition.WAITING
+    else:
+        condition = Condition.LATE if age > LATE_AFTER * of.period else Condition.WELL
+    if age == math.inf:
+        age = math.nan
+    return SourceHealth(name, condition, age, of.heard, of.lost, of.rejected, record.silences, of.restarts)

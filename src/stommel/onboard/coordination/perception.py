@@ -15,6 +15,9 @@ SILENT_AFTER = 3.5
 WATCHED = (MOTION, ACQUISITION)
 """Nodes that the coordinator cannot do without."""
 
+SENSORS = {"Depth": ("pressure_measured", "altimeter_answers"), "Battery": ("battery_measured",)}
+"""Messages of the acquisition node, and the bits of each that say that a sensor has measured."""
+
 
 class Attitude:
     """The last attitude by the compass."""
@@ -42,6 +45,9 @@ class Perception:
         self.attitude = Attitude()
         self.latest: dict[str, Values] = {}
         self.heard: dict[str, float] = {}
+        self.measured: dict[str, tuple[int, float]] = {}
+        """Of the sensors behind the acquisition node, by the signals of `SENSORS`: how often they have measured, and
+        when last [s]."""
         self.began = t
         self.compass_patience = SILENT_AFTER
         """Time without a reading of the compass after which it is silent [s]."""
@@ -56,7 +62,14 @@ class Perception:
             if isinstance(answer, Received) and self.watch.obeys(answer):
                 self.latest[answer.name], self.heard[answer.name] = answer.values, t
                 believed.append(answer)
+                if answer.name in SENSORS:
+                    self._note_sensors(answer, t)
         return believed
+
+    def _note_sensors(self, answer: Received, t: float) -> None:
+        for signal in SENSORS[answer.name]:
+            if answer.values[signal]:
+                self.measured[signal] = (self.measured.get(signal, (0, t))[0] + 1, t)
 
     def take_fix(self, t: float, latitude: float, longitude: float) -> None:
         """Take a position [rad] that held at a time [s]; the next readings tell it once."""

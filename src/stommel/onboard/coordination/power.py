@@ -18,24 +18,16 @@ _LEAKS = ("leak_fore", "leak_aft")
 
 
 class PowerSchedule(NamedTuple):
-    """Times between two of everything, by phase of the dive in the order of `PHASES` [s]."""
+    """What goes by the phase of the dive, in the order of `PHASES`."""
 
     decide: tuple[float, ...] = (1.0,) * len(PHASES)
-    """Two decisions."""
-    compass: tuple[float, ...] = (1.0,) * len(PHASES)
-    """Two readings of the compass."""
+    """Time between two decisions [s]."""
+    compass_rests: tuple[bool, ...] = (False,) * len(PHASES)
+    """Whether the compass measures only for the decisions; else at its own interval."""
     ctd: tuple[float, ...] = (10.0,) * len(PHASES)
-    """Two samples of the payload, where the mission has it measure."""
+    """Time between two samples of the CTD [s], where the mission has it sample."""
     gps: tuple[bool, ...] = (True,) * len(PHASES)
     """Whether GPS has power where control has it listen."""
-
-
-class Peripherals(NamedTuple):
-    """What is to be on, and how often it measures [s]."""
-
-    compass_every: float
-    ctd_every: float
-    gps: bool
 
 
 def wakes(received: Received) -> bool:
@@ -92,11 +84,6 @@ class Sleeper:
     def sleeps_until(self, phase: int) -> float:
         """When the next decision is due if nothing wakes it [s]."""
         return self._decided_at + self.schedule.decide[phase]
-
-    def peripherals(self, phase: int) -> Peripherals:
-        """What is to be on in a phase of the dive."""
-        plan = self.schedule
-        return Peripherals(plan.compass[phase], plan.ctd[phase], plan.gps[phase])
 
 
 def orders_for(orders: Orders, interval: float) -> Orders:

@@ -10,13 +10,15 @@ from stommel.control.readings import Readings
 from stommel.messages.codec import Received
 from stommel.messages.commanding import Outcome
 from stommel.onboard.coordination.deciding import Pilot
+from stommel.onboard.coordination.health import CONDITIONS, Condition, Health
 from stommel.onboard.coordination.logbook import records
 from stommel.onboard.coordination.logbook.logbook import Logbook
 from stommel.onboard.coordination.navigation import NavigationEstimate
 from stommel.onboard.coordination.perception import Perception
 from stommel.onboard.coordination.view import View
 
-_MOST_DIVES = 0xFFFFFFFF
+_MOST = 0xFFFFFFFF
+"""Greatest count of a record."""
 _MEMORY = MEMORY.names or ()
 
 
@@ -37,6 +39,7 @@ class Recorder:
         self._next_report = float("-inf")
         self._words = ""
         self._failure = ""
+        self._conditions: dict[str, Condition] = {}
 
     @property
     def logbook(self) -> Logbook | None:
@@ -82,13 +85,27 @@ class Recorder:
             log.event(t, "safety:cleared", name)
         for outcome in outcomes:
             log.event(t, "command", f"{outcome.command} to node {outcome.target}: {outcome.result} {outcome.detail}")
+        for parameter in view.parameters:
+            log.event(t, "parameter", parameter.words)
         if pilot.exceptions and pilot.failure != self._failure:
             self._failure = pilot.failure
             log.event(t, "exception", pilot.failure)
-        if t >= self._next_report:
+        reports = t >= self._next_report
+        self._write_health(log, view.health, whole=reports)
+        if reports:
             self._next_report = t + self._report_every
             self._write_report(log, pilot, seen, t)
         log.step(t)
+
+    def _write_health(self, log: Logbook, health: Health, *, whole: bool) -> None:
+        """Write down sources whose condition has changed, or all."""
+        conditions = self._conditions
+        for k, source in enumerate(health.sources):
+            name, condition, age, *counts = source
+            if whole or conditions.get(name) is not condition:
+                conditions[name] = condition
+                number = CONDITIONS.index(condition.value)
+                log.append(records.HEALTH, (health.t, k, number, age, *(min(count, _MOST) for count in counts)))
 
     @staticmethod
     def _write_drives(log: Logbook, seen: Perception, t: float) -> None:
@@ -106,7 +123,7 @@ class Recorder:
     @staticmethod
     def _write_memory(log: Logbook, memory: np.record, t: float) -> None:
         m = dict(zip(_MEMORY, memory.item(), strict=True))
-        dives_here = int(min(m["dives_here"], _MOST_DIVES))
+        dives_here = int(min(m["dives_here"], _MOST))
         log.append(
             records.DECISION,
             (

@@ -9,6 +9,7 @@ from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.compass.compensation import Masking
 from stommel.onboard.coordination.limits import ActuatorLimits, SafetyLimits
 from stommel.onboard.coordination.navigation import NavigationErrors
+from stommel.onboard.coordination.node_parameters import Wanted
 from stommel.onboard.coordination.power import PowerSchedule
 
 
@@ -24,8 +25,6 @@ class CoordinatorSettings:
     """From magnetic to true north, east positive."""
     calibration: CompassCalibration = field(default_factory=CompassCalibration)
     masking: Masking = field(default_factory=Masking)
-    sample_interval: float = 10.0
-    """Between two samples of the CTD."""
     compass: CompassSettings = field(default_factory=lambda: CompassSettings(polled=False))
     gnss: GnssSettings = field(default_factory=GnssSettings)
     navigation: NavigationErrors = field(default_factory=NavigationErrors)
@@ -34,6 +33,8 @@ class CoordinatorSettings:
     mean_power_over: float = 14_400.0
     """Time over which the mean power is taken [s]."""
     schedule: PowerSchedule = field(default_factory=PowerSchedule)
+    node_parameters: Wanted = field(default_factory=dict)
+    """What parameters of the nodes shall be, by number of the node and name; others are left as they are."""
     kind: NodeKind = field(default_factory=lambda: NodeKind(1, (0, 1, 0)))
     """Of this computer."""
     report_every: float = 60.0

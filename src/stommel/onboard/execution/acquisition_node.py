@@ -11,10 +11,10 @@ from stommel.messages.frames import Frame
 from stommel.messages.nodes import UNSTATED, NodeKind
 from stommel.messages.parameters import ParameterStore
 from stommel.onboard.execution.acquisition_io import AcquisitionOutputs, AcquisitionReadings
-from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
 from stommel.onboard.execution.node_link import NodeLink
 from stommel.onboard.execution.node_states import Event, Mode
 from stommel.onboard.execution.self_tests import Proof, proof_of
+from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
 
 PERIOD = 1.0
 """Between two frames of each kind [s]."""
@@ -121,7 +121,7 @@ class AcquisitionNode:
         if self.link.stranger or mode is Mode.STOPPED or mode in _ALONE:
             return
         sampling = bool(values["sampling"])
-        if sampling and not self._sampling:
+        if sampling and (not self._sampling or values["sample_interval"] != self._interval):
             self._ctd_heard = self.link.now
         self._loads, self._sampling, self._radio = int(values["loads"]), sampling, bool(values["surface_radio"])
         self._interval = values["sample_interval"]
@@ -146,6 +146,7 @@ class AcquisitionNode:
         link.acknowledge(order, result, detail)
         if order.command == "Restart":
             link.restart()
+            self.settings = link.settings_with(self.settings)
             self._begin()
 
     def _hear_ctd(self, samples: Sequence[tuple[float, float, float]]) -> None:

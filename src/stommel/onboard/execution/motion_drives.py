@@ -5,7 +5,7 @@ from math import inf
 
 from stommel.onboard.execution.drive_axis import Axis, AxisLimits
 from stommel.onboard.execution.motion_io import DriveOutputs, MotionReadings
-from stommel.onboard.execution.motion_settings import MotionSettings
+from stommel.onboard.nodes.motion_settings import MotionSettings
 
 UNSURE = 1.1
 """What a first movement takes for the speed of pump and mass, in expected ones: it rather stops short."""

@@ -12,9 +12,9 @@ from stommel.messages.parameters import ParameterStore, ParameterType, to_bits
 from stommel.onboard.execution.exercise import OIL_STILL, Exercise
 from stommel.onboard.execution.motion_drives import MotionDrives
 from stommel.onboard.execution.motion_io import AT_REST, DriveOutputs, MotionReadings
-from stommel.onboard.execution.motion_settings import MotionSettings
 from stommel.onboard.execution.node_link import NodeLink
 from stommel.onboard.execution.node_states import Event, Mode
+from stommel.onboard.nodes.motion_settings import MotionSettings
 
 BLOWING = frozenset((Mode.LEFT_ALONE, Mode.ABORTED))
 """Modes in which the node pumps all oil out and takes the mass aft; in others, but operational, it stops and brakes."""
@@ -52,7 +52,7 @@ class MotionNode:
         kind: NodeKind = UNSTATED,
     ) -> None:
         self.link = NodeLink(MOTION, settings, restarts, store, kind)
-        self.drives = MotionDrives(self.link.settings_with(settings))
+        self.drives = self._new_drives(settings)
         self.outputs = AT_REST
         self.weight_released = False
         """Whether the drop weight was told to go."""
@@ -60,7 +60,12 @@ class MotionNode:
         self._exercise: tuple[Order, Exercise] | None = None
         self._release_ends = -inf
         self._told_at = -inf
-        self._creep_told = 0.0
+
+    def _new_drives(self, settings: MotionSettings) -> MotionDrives:
+        """Drives that have not moved yet, with the values of the parameters; what crept away counts on."""
+        drives = MotionDrives(self.link.settings_with(settings))
+        drives.engine.crept = self._creep_told = drives.settings.oil_crept
+        return drives
 
     @property
     def settings(self) -> MotionSettings:
@@ -173,8 +178,8 @@ class MotionNode:
 
     def _restart(self) -> None:
         self._goals, self._exercise, self._told_at = None, None, -inf
-        self.drives = MotionDrives(self.drives.settings)
         self.link.restart()
+        self.drives = self._new_drives(self.drives.settings)
 
     def _begin_exercise(self, order: Order) -> str:
         """Let each drive prove itself by moving, where the node may move them."""

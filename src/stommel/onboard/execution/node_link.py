@@ -12,16 +12,20 @@ from stommel.messages.database import (
     database,
     database_hash,
     value_named,
+    word_of,
     words_of,
 )
 from stommel.messages.frames import Frame
 from stommel.messages.nodes import UNSTATED, HeartbeatSender, NodeKind
 from stommel.messages.parameters import MemoryStore, ParameterServer, ParameterStore
-from stommel.onboard.execution.node_settings import NodeSettings, Settings, parameters_of, settings_with
 from stommel.onboard.execution.node_states import Event, Mode, Modes
+from stommel.onboard.nodes.node_settings import NodeSettings, Settings, parameters_of, settings_with
 
 BAD_FRAMES, BAD_FRAMES_WITHIN = 5, 10.0
 """Rejected frames within so many seconds that are told as a fault: one is a count, not an alarm."""
+
+_SETTING = ("Write", "RestoreDefaults")
+"""Requests after which parameters have other values; the node hears of no others."""
 
 
 class NodeLink:
@@ -41,7 +45,8 @@ class NodeLink:
         self._node, self._restarts, self._kind = node, restarts, kind
         self._encoder, self._decoder = Encoder(), Decoder()
         self._receiver = CommandReceiver(node, self._encoder)
-        self._server = ParameterServer(parameters_of(settings), MemoryStore() if store is None else store)
+        self._parameters, self._store = parameters_of(settings), MemoryStore() if store is None else store
+        self._server = ParameterServer(self._parameters, self._store)
         self._heard = frozenset(
             message.frame_id
             for message in database().messages
@@ -71,8 +76,9 @@ class NodeLink:
         return self.now - self.last_sync
 
     def restart(self) -> None:
-        """Begin anew, as after a power cut."""
+        """Begin anew, as after a power cut: of the parameters what was saved holds."""
         self._restarts += 1
+        self._server = ParameterServer(self._parameters, self._store)
         self.stranger = False
         self.modes.take(Event.RESTART)
         self._begin()
@@ -101,7 +107,8 @@ class NodeLink:
                 self._meet(int(received.values["database_hash"]))
             elif received.name.endswith("ParameterRequest"):
                 self._out += self._server.take(received, self._encoder)
-                heard.append(received)
+                if word_of(received.name, "operation", int(received.values["operation"])) in _SETTING:
+                    heard.append(received)
             else:
                 heard.append(received)
         return heard

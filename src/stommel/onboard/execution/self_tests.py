@@ -4,7 +4,7 @@ from math import isfinite
 from typing import NamedTuple
 
 from stommel.onboard.execution.acquisition_io import AcquisitionReadings
-from stommel.onboard.execution.acquisition_settings import AcquisitionSettings
+from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
 
 
 class Proof(NamedTuple):

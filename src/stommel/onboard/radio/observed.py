@@ -44,6 +44,6 @@ def observe(coordinator: Coordinator, utc: float) -> Observed | None:
     if view is None:
         return None
     return Observed(
-        view.t, utc, view, pilot.memory, pilot.orders, coordinator.mission, coordinator.fix,
+        view.t, utc, view, pilot.memory, pilot.orders, coordinator.mission, coordinator.instruments.fix,
         coordinator.perception.latest, coordinator.perception.heard,
     )  # fmt: skip

@@ -127,6 +127,7 @@ class VehicleLink:
 
     def take(self, data: bytes, t: float) -> None:
         """Take bytes that the radio has received until a time [s]; a mission that came is flown from here on."""
+        self._coordinator.instruments.radio.take(data, t)  # health tells when the shore was last heard
         self.session.take(data, t)
         store = self.missions.opened
         if store is not None and store.active is not None and store.active.number != self._coordinator.mission:

@@ -7,7 +7,7 @@ from stommel.errors import StommelError
 from stommel.messages.bus import CanBus
 from stommel.messages.serial_port import PortSettings, SerialPort
 from stommel.onboard.coordination.config import Configuration
-from stommel.onboard.coordination.coordinator import PORTS
+from stommel.onboard.coordination.own_instruments import PORTS
 
 
 class MissingPortsError(StommelError):
@@ -20,7 +20,7 @@ class MissingPortsError(StommelError):
 
 @dataclass
 class RealPorts:
-    """The bus, and the serial ports by the names of `stommel.onboard.coordination.coordinator.PORTS`."""
+    """The bus, and the serial ports by the names of `stommel.onboard.coordination.own_instruments.PORTS`."""
 
     bus: CanBus
     serial: Mapping[str, SerialPort]

@@ -11,6 +11,7 @@ from stommel.files.toml_reader import read_table
 from stommel.instruments.gnss.driver import GnssSettings
 from stommel.instruments.tcm.driver import CompassSettings
 from stommel.messages.adapters import Adapter, BusError
+from stommel.messages.database import ACQUISITION, MOTION
 from stommel.onboard.coordination.compass.calibration import CompassCalibration
 from stommel.onboard.coordination.compass.calibration_file import read_calibration
 from stommel.onboard.coordination.compass.compensation import Masking
@@ -18,6 +19,7 @@ from stommel.onboard.coordination.config.configuration_file import Configuration
 from stommel.onboard.coordination.limits import ActuatorLimits, SafetyLimits
 from stommel.onboard.coordination.logbook.logbook import LogSettings
 from stommel.onboard.coordination.navigation import NavigationErrors
+from stommel.onboard.coordination.node_parameters import Wanted
 from stommel.onboard.coordination.power import PowerSchedule
 from stommel.onboard.coordination.settings import CoordinatorSettings
 
@@ -89,14 +91,25 @@ class Configuration:
             usable_energy=self.usable_energy,
             mean_power_over=3600.0 * file.power.mean_over_hours,
             schedule=self.schedule,
+            node_parameters=self.node_parameters,
             has_altimeter=file.positions.altimeter,
             declination=radians(file.compass.declination_deg),
             calibration=self.calibration,
             masking=Masking(longest=file.compass.hold_s, settling=file.compass.settle_s),
-            sample_interval=file.sample_every_s,
-            compass=CompassSettings(interval=file.compass.interval_s, polled=False),
+            compass=self.compass,
             gnss=GnssSettings(format=file.gnss.format, port=file.gnss.receiver_port, interval=file.gnss.interval_s),
         )
+
+    @property
+    def compass(self) -> CompassSettings:
+        """How the compass is to measure; one that sends by itself cannot rest."""
+        return CompassSettings(interval=self.file.compass.interval_s, polled=any(self.schedule.compass_rests))
+
+    @property
+    def node_parameters(self) -> Wanted:
+        """What parameters of the nodes shall be, by number of the node."""
+        wanted = self.file.node_parameters
+        return {node: values for node, values in ((MOTION, wanted.motion), (ACQUISITION, wanted.acquisition)) if values}
 
     @property
     def log(self) -> LogSettings:
@@ -108,14 +121,10 @@ class Configuration:
     def schedule(self) -> PowerSchedule:
         """When the controller decides, and what is on meanwhile."""
         power, file = self.file.power, self.file
-        decide = tuple(getattr(power.decide_every_s, phase) for phase in PHASES)
         return PowerSchedule(
-            decide=decide,
-            compass=tuple(
-                max(interval, file.compass.interval_s) if phase in power.compass_asleep_in else file.compass.interval_s
-                for phase, interval in zip(PHASES, decide, strict=True)
-            ),
-            ctd=(file.sample_every_s,) * len(PHASES),
+            decide=tuple(getattr(power.decide_every_s, phase) for phase in PHASES),
+            compass_rests=tuple(phase in power.compass_asleep_in for phase in PHASES),
+            ctd=tuple(getattr(power.sample_every_s, phase) or file.sample_every_s for phase in PHASES),
             gps=tuple(phase in power.gps_in for phase in PHASES),
         )
 

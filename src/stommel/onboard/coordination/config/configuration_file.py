@@ -8,14 +8,15 @@ from pydantic import Field, model_validator
 from stommel.control.dive_cycle import PHASES
 from stommel.files.fields import Name, Table
 from stommel.files.kinds import Format
+from stommel.onboard.coordination.config.by_phase import Interval
 from stommel.onboard.coordination.config.tables import (
     CanPort,
     CompassPort,
     FolderName,
     GnssPort,
-    Interval,
     Log,
     Navigation,
+    NodeParameters,
     Positions,
     Power,
     RadioPort,
@@ -56,7 +57,7 @@ class ConfigurationFile(Table):
     parameters: FolderName = "parameters"
     """Folder of the parameters and of what must outlive a restart."""
     sample_every_s: Interval = 10.0
-    """Between two samples of the CTD, which is on the acquisition node."""
+    """Between two samples of the CTD, which is on the acquisition node; `power.sample_every_s` has other times."""
     limits: VehicleLimits
     positions: Positions
     can: CanPort = CanPort()
@@ -67,6 +68,7 @@ class ConfigurationFile(Table):
     log: Log = Log()
     power: Power = Power()
     navigation: Navigation = Navigation()
+    node_parameters: NodeParameters = NodeParameters()
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:

@@ -9,10 +9,15 @@ from typing import Annotated, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from stommel.errors import one_line
 from stommel.files.fields import Table
 from stommel.files.kinds import OWN_WORDS, Flag
 from stommel.files.ranges import Hours, Position, Voltage, between
 from stommel.files.sentences import PRINTABLE
+from stommel.onboard.coordination.config.by_phase import Decisions, PhaseName, Samples
+from stommel.onboard.nodes.acquisition_settings import AcquisitionSettings
+from stommel.onboard.nodes.motion_settings import MotionSettings
+from stommel.onboard.nodes.node_settings import objection_to
 
 
 def _within(name: str) -> str:
@@ -27,8 +32,6 @@ FileName = Annotated[str, Field(min_length=1, max_length=300, pattern=PRINTABLE)
 FolderName = Annotated[FileName, AfterValidator(_within)]
 PortName = Annotated[str, Field(min_length=1, max_length=200, pattern=PRINTABLE)]
 Baud = Literal[1200, 2400, 4800, 9600, 19_200, 38_400, 57_600, 115_200, 230_400, 460_800, 921_600]
-Interval = Annotated[float, between(0.1, 3600)]
-DecisionInterval = Annotated[float, between(0.1, 60)]
 FieldStrength = Annotated[float, between(1, 1000)]
 AirPressure = Annotated[float, between(0.1, 1000)]
 
@@ -166,35 +169,13 @@ class Log(Table):
     """Whether frames of the bus and bytes of the ports are kept."""
 
 
-class Decisions(Table):
-    """Time between two decisions by phase of the dive [s]; in between the controller sleeps, and danger wakes it.
-
-    Control was written for decisions each second; what turns or brings up the vehicle should not be slower.
-    """
-
-    surface: DecisionInterval = 1.0
-    """At the surface, with position and radio."""
-    descent: DecisionInterval = 1.0
-    """Going down."""
-    inflection: DecisionInterval = 1.0
-    """Turning at the depth of the dive."""
-    ascent: DecisionInterval = 1.0
-    """Coming up."""
-    recovery: DecisionInterval = 1.0
-    """At the surface after the mission, calling."""
-    drift: DecisionInterval = 1.0
-    """Hanging in the water."""
-
-
-PhaseName = Literal["surface", "descent", "inflection", "ascent", "recovery", "drift"]
-
-
 class Power(Table):
     """What saves energy, and the account of it."""
 
     decide_every_s: Decisions = Decisions()
     compass_asleep_in: tuple[PhaseName, ...] = ()
-    """Phases in which the compass measures only as often as the controller decides."""
+    """Phases in which the compass rests between decisions, and measures a second before each."""
+    sample_every_s: Samples = Samples()
     gps_in: tuple[PhaseName, ...] = ("surface", "recovery")
     """Phases in which GPS has power; elsewhere it hears nothing."""
     reserve: Annotated[float, between(0, 0.9)] = 0.1
@@ -225,3 +206,23 @@ class Navigation(Table):
     """After which time."""
     fix_m: Annotated[float, between(0.01, 1000)] = 10.0
     """Of a position by GPS that does not say so itself, each of north and east."""
+
+
+class NodeParameters(Table):
+    """What parameters of the nodes shall be at each start where they are something else; others are left as they are.
+
+    Names, units and limits are those of the guide's page of the nodes, as in `{ quiet_after = 8.0 }`.
+    """
+
+    motion: dict[str, float] = Field(default_factory=dict)
+    """Of the motion-control node."""
+    acquisition: dict[str, float] = Field(default_factory=dict)
+    """Of the data-acquisition node."""
+
+    @model_validator(mode="after")
+    def _are_allowed(self) -> Self:
+        for node, settings in (("motion", MotionSettings), ("acquisition", AcquisitionSettings)):
+            for name, value in getattr(self, node).items():
+                if objection := objection_to(settings, name, value):
+                    raise ValueError(f"{node}.{one_line(name, 40)} = {value:g}: {objection}")
+        return self

@@ -41,7 +41,7 @@ def _fill(container: Any, model: BaseModel) -> None:
         if value is None:
             container.add(tomlkit.comment(f"{key} ="))
         else:
-            container.add(key, list(value) if isinstance(value, tuple) else value)
+            container.add(key, _written(value))
     for key, value in tables:
         table = tomlkit.table()
         container.add(tomlkit.nl())
@@ -49,6 +49,16 @@ def _fill(container: Any, model: BaseModel) -> None:
         table.add(tomlkit.nl())
         _fill(table, value)
         container.add(key, table)
+
+
+def _written(value: Any) -> Any:
+    import tomlkit  # noqa: PLC0415 - as above
+
+    if isinstance(value, dict):
+        table = tomlkit.inline_table()
+        table.update(value)
+        return table
+    return list(value) if isinstance(value, tuple) else value
 
 
 def _comment(container: Any, text: str) -> None:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from stommel.control.dive_cycle import EVENTS, PHASES
+from stommel.onboard.coordination.health import CONDITIONS, SOURCES
 
 ESSENTIAL, DETAIL, RAW = range(3)
 SERIES = ("essential", "detail", "raw")
@@ -218,8 +219,26 @@ SERIAL = RecordKind(
         Field("data", BYTES, "", ""),
     ),
 )
+HEALTH = RecordKind(
+    13,
+    "health",
+    ESSENTIAL,
+    "a node or an instrument; counts since the software's start",
+    (
+        _T,
+        Field("source", "B", "", "", SOURCES),
+        Field("condition", "B", "", "", CONDITIONS),
+        Field("age", "f", "s", "since last heard"),
+        Field("heard", "I", "", "messages; bytes of the radio"),
+        Field("lost", "I"),
+        Field("rejected", "I"),
+        Field("silences", "I"),
+        Field("restarts", "I"),
+    ),
+)
 
 KINDS = (
     READINGS, COMMANDS, DECISION, NAVIGATION, EVENT, ACTUATORS, HULL, BATTERY, CTD, CAN_STATISTICS, CAN_FRAME, SERIAL,
+    HEALTH,
 )  # fmt: skip
 """Every kind of record; numbers are never used twice."""

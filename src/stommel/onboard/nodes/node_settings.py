@@ -6,6 +6,7 @@ from math import inf
 from typing import Any, NamedTuple, TypeVar, cast
 
 from stommel.errors import StommelError
+from stommel.files.nearest import did_you_mean
 from stommel.messages.parameters import Parameter, ParameterServer, ParameterType
 
 
@@ -90,6 +91,19 @@ def parameters_of(settings: NodeSettings) -> list[Parameter]:
                 low, high = max(low, value / factor), min(high, value * factor)  # noqa: PLW2901 - the narrower ones
             found.append(Parameter(number, name, _kind(value), value, low, high, unit))
     return found
+
+
+def objection_to(settings: type[NodeSettings], name: str, value: float) -> str:
+    """What is wrong with a value for a parameter of whatever vehicle, in words; empty if nothing is."""
+    known = {each: limits for each, limits in _limits(settings()).items() if limits.number is not None}
+    if name not in known:
+        return f"is no parameter of the node{did_you_mean(name, known)} known: {', '.join(known)}"
+    low, high, unit, _, _ = known[name]
+    kind = _kind(getattr(settings(), name))
+    if not low <= value <= high:
+        return f"must be {_span(low, high, unit)}"
+    whole = kind is ParameterType.float32 or value == int(value)
+    return "" if whole else "must be a whole number"
 
 
 def settings_with(settings: Settings, server: ParameterServer) -> Settings:

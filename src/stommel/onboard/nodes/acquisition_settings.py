@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from stommel.onboard.execution.node_settings import NodeSettings, setting
+from stommel.onboard.nodes.node_settings import NodeSettings, setting
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from stommel.dynamics.state import X_EAST, X_NORTH
+from stommel.link.parameters.port import COORDINATOR_COMPONENT, Description, ParameterKind, ParameterPort, Value
 from stommel.link.parameters.server import ParameterServer
 from stommel.link.transports.opening import open_transport
 from stommel.link.transports.transport import TransportError
@@ -59,7 +60,7 @@ class _EndedError(Exception):
 class Afloat(threading.Thread):
     """Flies in a thread, and one client at a time may connect to it at a port of this machine.
 
-    The parameters are those of a fake port, as long as the vehicle serves none of its own.
+    Its parameters are those of a fake port where the vehicle serves none of its own.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -67,12 +68,20 @@ class Afloat(threading.Thread):
         self._transport = open_transport("tcp-listen:127.0.0.1:0")
         self.port = int(self._transport.name.rpartition(":")[2])
         self.system = System(load_scenario(scenario_in(folder)).mission, shore=Outside(self._transport))
-        self.parameters = Parameters()
-        self.system.link.session.services.append(ParameterServer(SYSTEM, self.parameters))
+        self.parameters = self._parameter_port()
         self.failure: BaseException | None = None
         self._ends = threading.Event()
         for _ in range(READY):
             self.system.step()
+
+    def _parameter_port(self) -> ParameterPort:
+        services = self.system.link.session.services
+        for service in services:
+            if isinstance(service, ParameterServer):
+                port: ParameterPort = vars(service)["_port"]
+                return port
+        services.append(ParameterServer(SYSTEM, fake := Parameters()))
+        return fake
 
     def run(self) -> None:
         try:
@@ -102,6 +111,18 @@ class Afloat(threading.Thread):
         orders = self.system.coordinator.pilot.orders
         assert orders is not None
         return [(round(degrees(latitude), 6), round(degrees(longitude), 6)) for latitude, longitude in orders.waypoints]
+
+    def values(self, component: int) -> dict[str, Value]:
+        """Parameters of a component as they hold aboard."""
+        (found,) = [each for each in self.parameters.sets() if each.component == component]
+        pairs = zip(found.descriptions, found.values, strict=True)
+        return {description.id: value for description, value in pairs if value is not None}
+
+    @property
+    def own_parameter(self) -> Description:
+        """A parameter of the coordinator, by floating point."""
+        own = next(each for each in self.parameters.sets() if each.component == COORDINATOR_COMPONENT)
+        return next(each for each in own.descriptions if each.kind is ParameterKind.FLOAT32)
 
     @property
     def orders_text(self) -> bytes:

@@ -1,5 +1,6 @@
 """The simulated glider in the hands of MAVProxy. Oracle: the program as it is, and what the vehicle did aboard."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -7,7 +8,6 @@ import pytest
 
 from tests.clients.afloat import Afloat, afloat
 from tests.clients.mavproxy import MavProxy
-from tests.link.parameters.vehicle import COORDINATOR
 
 WAYPOINTS = """QGC WPL 110
 0 0 6 16 0 500 0 0 29.2 126.1 -20 1
@@ -26,7 +26,7 @@ def vehicle(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Afloat]:
 def proxy(vehicle: Afloat, tmp_path: Path) -> Iterator[MavProxy]:
     with MavProxy(vehicle.port, tmp_path) as found:
         found.wait_for("Detected vehicle 1:1")
-        found.wait_for("Received 20 parameters")  # it asks for them by itself
+        found.wait_for(f"Received {len(vehicle.values(1))} parameters")  # it asks for them by itself
         yield found
 
 
@@ -51,13 +51,15 @@ def test_status_shows_a_submarine_that_lies_at_the_surface(vehicle: Afloat, prox
 
 
 def test_parameters_are_shown_set_and_fetched(vehicle: Afloat, proxy: MavProxy) -> None:
-    shown = proxy.ask("param show REPORT_1*", "REPORT_19")
-    assert "REPORT_1         11.0" in shown
-    proxy.say("param set REPORT_5 77.5")
-    proxy.ask("param fetch REPORT_5", "REPORT_5 = 77.5")
-    proxy.ask("param fetch", f"Received {len(COORDINATOR)} parameters")
-    assert "77.5" in proxy.ask("param show REPORT_5", "REPORT_5  ")
-    assert vehicle.parameters.values[1][5] == 77.5
+    own, held = vehicle.own_parameter, vehicle.values(1)
+    shown = proxy.ask("param show *", list(held)[-1])
+    assert re.search(rf"{own.id} +{held[own.id]}", shown)
+    wanted = float(own.low) + 100.5
+    proxy.say(f"param set {own.id} {wanted}")
+    proxy.ask(f"param fetch {own.id}", f"{own.id} = {wanted}")
+    proxy.ask("param fetch", f"Received {len(held)} parameters")
+    assert str(wanted) in proxy.ask(f"param show {own.id}", f"{own.id}  ")
+    assert vehicle.values(1)[own.id] == wanted
 
 
 def test_a_mission_is_listed_loaded_and_listed_again(vehicle: Afloat, proxy: MavProxy, tmp_path: Path) -> None:

@@ -9,9 +9,9 @@ from typing import Any, TypeVar
 
 import pytest
 
+from stommel.link.parameters.port import COORDINATOR_COMPONENT, MOTION_COMPONENT
 from stommel.onboard.coordination.executive import State
 from tests.clients.afloat import Afloat, afloat
-from tests.link.parameters.vehicle import COORDINATOR
 
 T = TypeVar("T")
 PATIENCE = 30.0
@@ -113,20 +113,34 @@ def test_parameters_are_listed_read_and_set(vehicle: Afloat) -> None:
     async def use(system: Any) -> None:
         from mavsdk.asyncio.plugins.param import ParamAsync
 
-        parameters = ParamAsync(system)
-        listed = await parameters.get_all_params()
-        assert {each.name: each.value for each in listed.float_params} == {
-            each.id: pytest.approx(vehicle.parameters.values[1][number]) for number, each in enumerate(COORDINATOR)
-        }
-        assert await parameters.get_param_float("REPORT_3") == 13.0
-        await parameters.set_param_float("REPORT_3", 77.5)
-        assert vehicle.parameters.values[1][3] == 77.5
-        assert await parameters.get_param_float("REPORT_3") == 77.5
+        parameters, own = ParamAsync(system), vehicle.own_parameter
+        assert listed(await parameters.get_all_params()) == pytest.approx(vehicle.values(COORDINATOR_COMPONENT))
+        assert await parameters.get_param_float(own.id) == vehicle.values(COORDINATOR_COMPONENT)[own.id]
+        wanted = float(own.low) + 100.5
+        await parameters.set_param_float(own.id, wanted)
+        assert vehicle.values(COORDINATOR_COMPONENT)[own.id] == wanted
+        assert await parameters.get_param_float(own.id) == wanted
         with pytest.raises(Exception, match="OUT_OF_RANGE"):
-            await parameters.set_param_float("REPORT_3", -1.0)
-        assert vehicle.parameters.values[1][3] == 77.5
+            await parameters.set_param_float(own.id, float(own.low) - 1.0)
+        assert vehicle.values(COORDINATOR_COMPONENT)[own.id] == wanted
 
     with_vehicle(vehicle, use)
+
+
+def test_parameters_of_a_node_are_those_of_its_component(vehicle: Afloat) -> None:
+    async def use(system: Any) -> None:
+        from mavsdk.asyncio.plugins.param import ParamAsync
+        from mavsdk.plugins.param.param import ProtocolVersion
+
+        parameters, held = ParamAsync(system), vehicle.values(MOTION_COMPONENT)
+        await parameters.select_component(MOTION_COMPONENT, ProtocolVersion.V1)
+        assert listed(await parameters.get_all_params()) == pytest.approx(held, rel=1e-6)
+
+    with_vehicle(vehicle, use)
+
+
+def listed(found: Any) -> dict[str, float]:
+    return {each.name: each.value for each in [*found.float_params, *found.int_params]}
 
 
 def rounded(places: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:

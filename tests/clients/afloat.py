@@ -9,18 +9,15 @@ from pathlib import Path
 import pytest
 
 from stommel.dynamics.state import X_EAST, X_NORTH
-from stommel.link.parameters.port import COORDINATOR_COMPONENT, Description, ParameterKind, ParameterPort, Value
-from stommel.link.parameters.server import ParameterServer
+from stommel.link.parameters.port import COORDINATOR_COMPONENT, Description, ParameterKind, Value
 from stommel.link.transports.opening import open_transport
 from stommel.link.transports.transport import TransportError
 from stommel.onboard.coordination.view import View
 from stommel.sitl.flight import fly
 from stommel.sitl.radio.outside import Outside
-from stommel.sitl.radio.station import SYSTEM
 from stommel.sitl.real_time import Pace
 from stommel.sitl.scenario import load_scenario
 from stommel.sitl.system import System
-from tests.link.parameters.vehicle import Vehicle as Parameters
 
 SPEED = 5.0
 """Times real time: half an hour at the surface is six minutes of tests."""
@@ -58,30 +55,17 @@ class _EndedError(Exception):
 
 
 class Afloat(threading.Thread):
-    """Flies in a thread, and one client at a time may connect to it at a port of this machine.
-
-    Its parameters are those of a fake port where the vehicle serves none of its own.
-    """
+    """Flies in a thread, and one client at a time may connect to it at a port of this machine."""
 
     def __init__(self, folder: Path) -> None:
         super().__init__(daemon=True)
         self._transport = open_transport("tcp-listen:127.0.0.1:0")
         self.port = int(self._transport.name.rpartition(":")[2])
         self.system = System(load_scenario(scenario_in(folder)).mission, shore=Outside(self._transport))
-        self.parameters = self._parameter_port()
         self.failure: BaseException | None = None
         self._ends = threading.Event()
         for _ in range(READY):
             self.system.step()
-
-    def _parameter_port(self) -> ParameterPort:
-        services = self.system.link.session.services
-        for service in services:
-            if isinstance(service, ParameterServer):
-                port: ParameterPort = vars(service)["_port"]
-                return port
-        services.append(ParameterServer(SYSTEM, fake := Parameters()))
-        return fake
 
     def run(self) -> None:
         try:
@@ -114,14 +98,14 @@ class Afloat(threading.Thread):
 
     def values(self, component: int) -> dict[str, Value]:
         """Parameters of a component as they hold aboard."""
-        (found,) = [each for each in self.parameters.sets() if each.component == component]
+        (found,) = [each for each in self.system.link.parameters.sets() if each.component == component]
         pairs = zip(found.descriptions, found.values, strict=True)
         return {description.id: value for description, value in pairs if value is not None}
 
     @property
     def own_parameter(self) -> Description:
         """A parameter of the coordinator, by floating point."""
-        own = next(each for each in self.parameters.sets() if each.component == COORDINATOR_COMPONENT)
+        own = next(each for each in self.system.link.parameters.sets() if each.component == COORDINATOR_COMPONENT)
         return next(each for each in own.descriptions if each.kind is ParameterKind.FLOAT32)
 
     @property

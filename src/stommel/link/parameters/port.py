@@ -40,7 +40,7 @@ class WriteError(IntEnum):
 
 
 class Description(NamedTuple):
-    """What a parameter is; does not change while the software runs."""
+    """What a parameter is."""
 
     id: str
     """Up to 16 capital letters, digits and underscores; each once in its component."""

@@ -76,7 +76,6 @@ class ParameterServer:
     def __init__(self, system: int, port: ParameterPort) -> None:
         self._system, self._port = system, port
         check_sets(port.sets())
-        self._descriptions_digests = {each.component: descriptions_digest(each.descriptions) for each in port.sets()}
         self._streams: dict[int, dict[int, None]] = {}
         """Numbers that are still to be said, by component."""
         self._singles: dict[tuple[int, int], None] = {}
@@ -286,7 +285,7 @@ class ParameterServer:
         state = ParameterState.BEING_READ if each.is_being_read else each.state
         return {
             "count": len(each.descriptions), "set_number": number, "set_count": len(sets), "state": int(state),
-            "descriptions": self._descriptions_digests[component],
+            "descriptions": descriptions_digest(each.descriptions),
             "values": values_digest(each.descriptions, each.values), "name": each.name,
         }  # fmt: skip
 

@@ -23,12 +23,31 @@ _NUMBERS = {message_named(row.name).id: row for row in TELEMETRY}
 _REACTIONS = {row.name: row.reaction for row in FAILSAFES}
 
 
-class Telemetry:
-    """A service of the link that nobody has to ask."""
+SHARE = 0.2
+"""Of the line that telemetry takes at most; on a slower line everything is told less often."""
+_FRAME = 25
+"""Bytes of a signed frame beside its payload."""
 
-    def __init__(self) -> None:
+
+def needed_rate() -> float:
+    """Bytes a second that the table of telemetry takes as it stands."""
+    return sum((message_named(row.name).layout.size + _FRAME) / row.interval for row in TELEMETRY)
+
+
+class Telemetry:
+    """A service of the link that nobody has to ask.
+
+    Parameters
+    ----------
+    line
+        What the line carries [B/s].
+    """
+
+    def __init__(self, line: float = math.inf) -> None:
         self._seen: Observed | None = None
-        self._intervals = {row.name: row.interval for row in TELEMETRY}
+        stretch = max(1.0, needed_rate() / (SHARE * line))
+        self._usual = {row.name: row.interval * stretch for row in TELEMETRY}
+        self._intervals = dict(self._usual)
         self._due = dict.fromkeys(_ROWS, 0.0)
         self._next = 0.0
         """Before this time nothing is due [s]."""
@@ -73,14 +92,14 @@ class Telemetry:
         return True
 
     def set_interval(self, number: int, interval: float | None, t: float) -> bool:
-        """Say a message every so often [s], within `SHORTEST` and `LONGEST`; 0: as the table says, None: not at all."""
+        """Say a message every so often [s], within `SHORTEST` and `LONGEST`; 0: as usual, None: not at all."""
         row = _NUMBERS.get(number)
         if row is None:
             return False
         if interval is None:
             self._intervals[row.name] = self._due[row.name] = math.inf
             return True
-        self._intervals[row.name] = min(max(interval, SHORTEST), LONGEST) if interval else row.interval
+        self._intervals[row.name] = min(max(interval, SHORTEST), LONGEST) if interval else self._usual[row.name]
         self._due[row.name] = self._next = t
         return True
 

@@ -11,6 +11,7 @@ from stommel.link.files.port import FilePort
 from stommel.link.files.server import FileServer
 from stommel.link.missions.orders_server import OrdersServer
 from stommel.link.missions.waypoint_server import WaypointServer
+from stommel.link.parameters.server import ParameterServer
 from stommel.link.presence import Presence
 from stommel.link.rate import LineRate
 from stommel.link.service import VEHICLE_COMPONENT, Service
@@ -27,6 +28,7 @@ from stommel.onboard.radio.commands import VehicleCommands
 from stommel.onboard.radio.dive_reports import DiveReports
 from stommel.onboard.radio.mission_port import MissionPort
 from stommel.onboard.radio.observed import Observed, observe
+from stommel.onboard.radio.parameter_port import VehicleParameters
 from stommel.onboard.radio.shore_clock import ShoreClock
 from stommel.onboard.radio.telemetry import WARNING, Telemetry
 from stommel.onboard.radio.telemetry_table import surface_time_left
@@ -94,7 +96,8 @@ class VehicleLink:
         rate = LineRate(settings.bit_rate, half_duplex=settings.half_duplex)
         self.session = Session(*me, (), PortGuard(guard), rate)
         self.presence, self.time_sync = Presence(), TimeSync(utc)
-        self.telemetry, self._reports = Telemetry(), DiveReports()
+        self.parameters = VehicleParameters(coordinator)
+        self.telemetry, self._reports = Telemetry(settings.bit_rate / 10.0), DiveReports()
         port = VehicleCommands(coordinator, missions, restart)
         self.commands = CommandServer(*me, port, ShoreClock(self.time_sync), storage)
         self.statistics = Statistics(
@@ -108,6 +111,7 @@ class VehicleLink:
             self.time_sync,
             self.commands,
             StandardCommands(*me, port, self.telemetry, Identity(__version__), self.commands.abort_came, warn),
+            ParameterServer(settings.system, self.parameters),
             OrdersServer(*me, missions, missions),
             WaypointServer(*me, missions, warn),
             *services,
@@ -124,6 +128,7 @@ class VehicleLink:
             self._seen = seen
             self.telemetry.observe(seen)
             self._reports.observe(seen)
+            self.parameters.observe()
 
     def take(self, data: bytes, t: float) -> None:
         """Take bytes that the radio has received until a time [s]; a mission that came is flown from here on."""

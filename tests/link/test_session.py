@@ -56,6 +56,18 @@ def test_services_hear_what_was_said_and_nothing_twice() -> None:
     assert session.peers()[9, 1].duplicate == 1
 
 
+def test_each_component_has_a_sequence_of_its_own() -> None:
+    """As MAVLink has it: frames of one component between those of another are no frames that are missing."""
+    session, listening = Session(1, 1, []), Session(255, 190, [])
+    for number in range(600):
+        session.outbox.put(Priority.STATE, "HEARTBEAT", HEARTBEAT, (None, 25, 26)[number % 3])
+        listening.take(session.poll(float(number), 4096), float(number))
+    counts = listening.peers()
+    assert {peer: (each.good, each.lost) for peer, each in counts.items()} == {
+        (1, component): (200, 0) for component in (1, 25, 26)
+    }
+
+
 def test_own_frames_that_come_back_are_not_heard() -> None:
     session = Session(9, 1, [])
     assert session.take(frame(), 0.0) == []

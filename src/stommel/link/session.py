@@ -62,7 +62,8 @@ class Session:
         """Frames of our own that came back."""
         self._splitter = FrameSplitter()
         self._watches: dict[Peer, SequenceWatch] = {}
-        self._sequence = 0
+        self._sequences: dict[int, int] = {}
+        """Of the next frame of each component: whoever listens counts what is missing of each by itself."""
         self._last_bytes = float("-inf")
 
     @property
@@ -164,10 +165,11 @@ class Session:
 
     def _frame(self, outgoing: Outgoing, t: float) -> bytes:
         component = self.component if outgoing.component is None else outgoing.component
+        sequence = self._sequences.get(component, 0)
         guard = self.guard if self.guard is not None and self.guard.signs else None
         frame = frame_bytes(
-            message_named(outgoing.name), outgoing.payload, self.system, component, self._sequence,
+            message_named(outgoing.name), outgoing.payload, self.system, component, sequence,
             signed=guard is not None,
         )  # fmt: skip
-        self._sequence = (self._sequence + 1) % 256
+        self._sequences[component] = (sequence + 1) % 256
         return frame if guard is None else guard.sign(frame, t)

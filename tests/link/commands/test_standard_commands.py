@@ -25,8 +25,11 @@ class Bench:
         self.port = FakePort()
         self.asked: list[tuple[Any, ...]] = []
         self.aborts: list[float] = []
+        self.told: list[str] = []
         self.t = 0.0
-        self.standard = StandardCommands(*VEHICLE, self.port, self, Identity("1.2.3"), self.aborts.append)
+        self.standard = StandardCommands(
+            *VEHICLE, self.port, self, Identity("1.2.3"), self.aborts.append, self.told.append
+        )
 
     def request(self, number: int, t: float) -> bool:
         self.asked.append((number,))
@@ -150,6 +153,21 @@ def test_what_the_vehicle_cannot_do_is_not_begun(readiness: Readiness, result: s
     bench.port.answer = Answer(readiness)
     assert bench.result(ARM, 1.0) == result
     assert bench.port.begun == []
+
+
+def test_why_a_command_is_not_executed_is_told_in_words() -> None:
+    """COMMAND_ACK has room for a number alone; ground software shows STATUSTEXT."""
+    bench = Bench()
+    bench.port.answer = Answer(Readiness.NEVER, "there is no mission aboard")
+    bench.result(ARM, 1.0)
+    bench.result(RADIO_TIME, 1.0)
+    bench.port.answer, bench.port.outcome = Answer(Readiness.READY), Progress(State.IN_PROGRESS)
+    bench.result(SURFACE)
+    bench.port.running[next(iter(bench.port.running))] = Progress(State.FAILED, words="the pump is stuck")
+    bench.poll()
+    assert bench.told[0] == f"command {START} refused: there is no mission aboard"
+    assert bench.told[1].startswith(f"command {RADIO_TIME} refused: ")
+    assert bench.told[2:] == [f"command {SURFACE} failed: the pump is stuck"]
 
 
 def test_an_abort_is_told_to_the_ledger() -> None:

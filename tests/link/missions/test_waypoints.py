@@ -6,6 +6,7 @@ import random
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pymavlink.dialects.v20 import common
 
 from stommel.link.endings import Ending
 from stommel.link.missions.items import MissionResult
@@ -245,6 +246,21 @@ def test_old_software_that_speaks_in_degrees() -> None:
     (waypoint,) = vehicle.waypoints.waypoints
     assert waypoint.latitude == pytest.approx(301_234_560, abs=20)
     assert waypoint.longitude == pytest.approx(-1_226_543_210, abs=80)
+
+
+def test_why_waypoints_are_refused_is_told_in_words_too() -> None:
+    """Software that is not ours knows no WAYPOINTS_REFUSED."""
+    told: list[str] = []
+    vehicle, says = Vehicle(), Says(("MISSION_CLEAR_ALL", TO))
+    Line(End(255, 190, [says]), End(1, 1, [WaypointServer(1, 1, vehicle, told.append)])).wait(1.0)
+    (refused,) = [each for each in says.heard if each.name == "WAYPOINTS_REFUSED"]
+    assert told == [f"waypoints refused: {refused.values['words']}"]
+
+
+def test_items_are_in_a_frame_that_mavsdk_knows() -> None:
+    """MAVSDK's missions know MAV_FRAME_GLOBAL_RELATIVE_ALT_INT alone, and end a download at any other."""
+    (item,) = conversation(Vehicle(), ("MISSION_REQUEST_INT", {**TO, "seq": 0}))
+    assert item.values["frame"] == common.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT
 
 
 def test_aiming_clearing_and_other_kinds_of_missions() -> None:

@@ -54,6 +54,7 @@ class ChannelEnd:
         """Hand bytes to the modem at a time [s], and return how many found room."""
         self._channel.advance(t)
         taken = self.modem.put(data, t)
+        self._channel.look_again()
         self.counts.refused_bytes += len(data) - taken
         return taken
 
@@ -102,6 +103,8 @@ class Channel:
         self._turn_since = 0.0
         self._free = {id(end): 0.0 for end in (self.vehicle, self.shore)}
         self._number = 0
+        self._next = float("inf")
+        """Before this time nothing happens [s]."""
 
     def is_linked(self, t: float) -> bool:
         """Whether anything passes at a time [s]."""
@@ -117,6 +120,8 @@ class Channel:
 
     def advance(self, t: float) -> None:
         """Let pass what passes until a time [s]."""
+        if t < self._next:
+            return
         while True:
             waiting = [(begin, end) for end in (self.vehicle, self.shore) if (begin := self._begin(end)) is not None]
             begin = min((begin for begin, _ in waiting), default=float("inf"))
@@ -125,6 +130,11 @@ class Channel:
             self._send([end for at, end in waiting if at <= begin], begin)
         for end in (self.vehicle, self.shore):
             self._deliver(end, t)
+        self._next = self.next_event()
+
+    def look_again(self) -> None:
+        """Look at both ends anew when time goes on: one of them has been given bytes."""
+        self._next = float("-inf")
 
     def other(self, end: ChannelEnd) -> ChannelEnd:
         """Whom an end speaks to."""

@@ -75,6 +75,8 @@ class StandardCommands:
         Who the vehicle is.
     abort_came
         Is told of each abort, so that commands of our own that wait are cancelled.
+    tell
+        Says in words why a command is not executed: COMMAND_ACK has no room for them.
     """
 
     def __init__(
@@ -85,9 +87,11 @@ class StandardCommands:
         telemetry: Telemetry,
         identity: Identity,
         abort_came: Callable[[float], None],
+        tell: Callable[[str], None] = lambda _: None,
     ) -> None:
         self._me = (system, component)
         self._port, self._telemetry, self._identity, self._abort_came = port, telemetry, identity, abort_came
+        self._tell = tell
         self._last: dict[tuple[int, int], _Last] = {}
         self._running: dict[int, _Running] = {}
         self._answers: list[tuple[str, Fields]] = []
@@ -146,6 +150,8 @@ class StandardCommands:
             if progress.state.is_last:
                 del self._running[id]
                 result = _RESULTS.get(progress.state, "FAILED")
+                if result == "FAILED" and progress.words:
+                    self._tell(f"command {running.command} failed: {progress.words}")
                 for sender, last in self._last.items():
                     if last.id == id:
                         self._last[sender] = last._replace(result=result)
@@ -174,7 +180,8 @@ class StandardCommands:
         used = len(kind.parameters)
         given = [*parameters, *[0.0] * PARAMETERS][:PARAMETERS]
         given = given[:used] + [0.0 if math.isnan(value) else value for value in given[used:]]
-        if refusal(kind, given):
+        if problem := refusal(kind, given):
+            self._tell(f"command {number} refused: {problem}")
             return "DENIED", 0
         if len(self._running) >= MOST:
             return "TEMPORARILY_REJECTED", 0
@@ -183,12 +190,15 @@ class StandardCommands:
         command = Command(self._count, number, tuple(given), When.AT_ONCE, 0, 0)
         answer = self._port.check(command)
         if answer.readiness is not Readiness.READY:
+            if answer.words:
+                self._tell(f"command {number} refused: {answer.words}")
             return ("TEMPORARILY_REJECTED" if answer.readiness is Readiness.NOT_YET else "DENIED"), 0
         if number == ABORT:
             self._abort_came(t)
         try:
             progress = self._port.begin(command)
-        except StommelError:
+        except StommelError as error:
+            self._tell(f"command {number} failed: {error}")
             return "FAILED", 0
         last = progress.state.is_last
         return (_RESULTS.get(progress.state, "FAILED") if last else "IN_PROGRESS"), self._count

@@ -16,6 +16,8 @@ from stommel.link.missions.port import Waypoint, WaypointPlan
 from stommel.messages.mavlink import Fields
 
 NAV_WAYPOINT = 16
+RELATIVE = 6
+"""MAV_FRAME_GLOBAL_RELATIVE_ALT_INT: the only one of the four that MAVSDK's missions know."""
 MISSION = 0
 """MAV_MISSION_TYPE_MISSION, the one that we have."""
 MOST_WAYPOINTS = 5000
@@ -83,7 +85,7 @@ def item_of(number: int, plan: WaypointPlan, current: int | None) -> Fields:
     """Fields of MISSION_ITEM_INT, without target, of a waypoint."""
     latitude, longitude = plan.waypoints[number]
     return {
-        "seq": number, "frame": 5, "command": NAV_WAYPOINT, "current": int(number == current), "autocontinue": 1,
+        "seq": number, "frame": RELATIVE, "command": NAV_WAYPOINT, "current": int(number == current), "autocontinue": 1,
         "param1": 0.0, "param2": plan.radius or 0.0, "param3": 0.0, "param4": 0.0, "x": latitude, "y": longitude,
         "z": -(plan.depth or 0.0), "mission_type": MISSION,
     }  # fmt: skip

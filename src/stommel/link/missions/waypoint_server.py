@@ -1,6 +1,7 @@
 """The vehicle's side of MAVLink's mission protocol: items are staged, made into orders, and switched over as one."""
 
 from collections import deque
+from collections.abc import Callable
 from typing import NamedTuple
 
 from stommel.link.missions.items import (
@@ -26,6 +27,8 @@ GIVEN_UP_AFTER = 120.0
 """An upload of which nothing more comes ends after this time [s]; the mission stays as it was."""
 CURRENT_EVERY = 5.0
 """Between two MISSION_CURRENT [s]."""
+_LOOKS_EVERY = 1.0
+"""Between two looks at how far the vehicle has come [s]."""
 _ANSWERED_AGAIN = 300.0
 """How long the end of an upload is told again to one who did not hear it [s]."""
 _MOST_ANSWERS = 64
@@ -63,16 +66,20 @@ class WaypointServer:
         The vehicle's coordination software.
     port
         Where its waypoints are kept.
+    tell
+        Says in words why waypoints were refused, to software that knows no WAYPOINTS_REFUSED.
     """
 
-    def __init__(self, system: int, component: int, port: WaypointPort) -> None:
-        self._system, self._component, self._port = system, component, port
+    def __init__(
+        self, system: int, component: int, port: WaypointPort, tell: Callable[[str], None] = lambda _: None
+    ) -> None:
+        self._system, self._component, self._port, self._tell_words = system, component, port, tell
         self._pace = Pace()
         self._upload: _Upload | None = None
         self._ended: _Ended | None = None
         self._answers: deque[tuple[str, Fields]] = deque(maxlen=_MOST_ANSWERS)
         self._told = WaypointProgress(None)
-        self._tell_at = 0.0
+        self._tell_at = self._look_at = 0.0
         self._takes = {
             "MISSION_COUNT": self._count,
             "MISSION_ITEM_INT": self._item,
@@ -188,6 +195,7 @@ class WaypointServer:
         to: Fields = {"target_system": received.system, "target_component": received.component}
         told: Fields = {**to, "seq": item, "type": int(result), "words": fitted(words, 200)}
         self._answers.append(("WAYPOINTS_REFUSED", told))
+        self._tell_words(f"waypoints refused: {words}")
 
     def _ack(self, received: Received, t: float) -> None:  # noqa: ARG002 - as the others
         """A station ends its upload, or a download; of that nothing is kept here."""
@@ -225,7 +233,7 @@ class WaypointServer:
         words = self._port.aim_at(int(received.values["seq"]))  # type: ignore[arg-type]
         if words:
             self._refuse(received, MissionResult.INVALID_SEQUENCE, words)
-        self._tell_at = t
+        self._tell_at = self._look_at = t
 
     # what is said
 
@@ -250,6 +258,9 @@ class WaypointServer:
             outbox.put(Priority.COMMAND, "MISSION_REQUEST_INT", {**to, "seq": len(upload.items)})
 
     def _tell_progress(self, t: float, outbox: Outbox) -> None:
+        if t < self._look_at:
+            return
+        self._look_at = t + _LOOKS_EVERY
         progress = self._port.progress()
         if progress.reached not in (None, self._told.reached):
             outbox.put(Priority.STATE, "MISSION_ITEM_REACHED", {"seq": progress.reached or 0})

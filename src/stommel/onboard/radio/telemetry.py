@@ -14,8 +14,10 @@ SHORTEST, LONGEST = 0.1, 3600.0
 """Intervals that can be asked for [s]."""
 _MOST_WORDS = 32
 """Sentences that wait."""
-_TEXT, _EMERGENCY, _WARNING, _NOTICE, _INFO = 50, 0, 4, 5, 6
-"""Bytes of a STATUSTEXT, and MAV_SEVERITY."""
+_TEXT = 50
+"""Bytes of a STATUSTEXT."""
+_EMERGENCY, WARNING, _NOTICE, _INFO = 0, 4, 5, 6
+"""MAV_SEVERITY."""
 _ROWS = {row.name: row for row in TELEMETRY}
 _NUMBERS = {message_named(row.name).id: row for row in TELEMETRY}
 _REACTIONS = {row.name: row.reaction for row in FAILSAFES}
@@ -47,6 +49,8 @@ class Telemetry:
         self._usual = {row.name: row.interval * stretch for row in TELEMETRY}
         self._intervals = dict(self._usual)
         self._due = dict.fromkeys(_ROWS, 0.0)
+        self._next = 0.0
+        """Before this time nothing is due [s]."""
         self._words: deque[tuple[int, str]] = deque(maxlen=_MOST_WORDS)
         self._state = ""
         self._text = 0
@@ -57,7 +61,7 @@ class Telemetry:
         safety, executive = seen.view.safety, seen.view.executive
         for name in safety.raised:
             worst = _REACTIONS.get(name, Reaction.REPORT)
-            severity = _EMERGENCY if worst >= Reaction.ABORT else _WARNING
+            severity = _EMERGENCY if worst >= Reaction.ABORT else WARNING
             self._words.append((severity, f"alarm: {name}"))
         for name in safety.cleared:
             self._words.append((_NOTICE, f"alarm over: {name}"))
@@ -71,19 +75,20 @@ class Telemetry:
     def poll(self, t: float, outbox: Outbox) -> None:
         """Say what is due, as far as there is room: what is not said now is said newer the next time."""
         self._tell(outbox)
-        if self._seen is None:
+        if self._seen is None or t < self._next:
             return
         for name, due in self._due.items():
             if t >= due and outbox.room(Priority.STATE) > 512:
                 self._say(_ROWS[name], outbox)
                 self._due[name] = t + self._intervals[name]
+        self._next = min(self._due.values())
 
     def request(self, number: int, t: float) -> bool:
         """Say a message once, soon; whether the vehicle has it."""
         row = _NUMBERS.get(number)
         if row is None or self._seen is None or row.fields(self._seen) is None:
             return False
-        self._due[row.name] = t
+        self._due[row.name] = self._next = t
         return True
 
     def set_interval(self, number: int, interval: float | None, t: float) -> bool:
@@ -95,8 +100,13 @@ class Telemetry:
             self._intervals[row.name] = self._due[row.name] = math.inf
             return True
         self._intervals[row.name] = min(max(interval, SHORTEST), LONGEST) if interval else self._usual[row.name]
-        self._due[row.name] = t
+        self._due[row.name] = self._next = t
         return True
+
+    def tell(self, severity: int, words: str) -> None:
+        """Say a sentence, of a MAV_SEVERITY, unless it waits already; alarms keep half of the room."""
+        if len(self._words) < _MOST_WORDS // 2 and (severity, words) not in self._words:
+            self._words.append((severity, words))
 
     def _say(self, row: TelemetryRow, outbox: Outbox) -> bool:
         fields = None if self._seen is None else row.fields(self._seen)

@@ -4,16 +4,22 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
+import numpy as np
+
 from stommel.control.dive_cycle import SURFACE
 from stommel.geometry.earth import to_waypoint
 from stommel.link.outbox import Priority
 from stommel.messages.mavlink import Fields, entry_words
 from stommel.onboard.coordination.executive import State
 from stommel.onboard.coordination.failsafes import Reaction
+from stommel.onboard.coordination.navigation import NavigationEstimate
 from stommel.onboard.radio.observed import Observed
+from stommel.onboard.radio.sensor_health import sensor_health
 
 STATES = tuple(State)
 """States of the executive by their numbers on the air."""
+FIRST_MODE = 100
+"""`custom_mode` of the first state: the lower numbers are modes of ArduSub, by whose names software shows them."""
 _ALARM_BITS = {words: bit for bit, words in entry_words("GLIDER_ALARM").items()}
 _UNKNOWN_16, _UNKNOWN_U16 = 0x7FFF, 0xFFFF
 
@@ -69,9 +75,32 @@ def heartbeat(seen: Observed) -> Fields:
         "type": _SUBMARINE,
         "autopilot": _GENERIC,
         "base_mode": CUSTOM_MODE | (ARMED if executive.started else 0),
-        "custom_mode": STATES.index(executive.state),
+        "custom_mode": FIRST_MODE + STATES.index(executive.state),
         "system_status": status,
         "mavlink_version": _MAVLINK_2,
+    }
+
+
+def _velocity(memory: np.record, navigation: NavigationEstimate, psi: float) -> tuple[float, float, float]:
+    """Over ground to the north, to the east, and down, by dead reckoning [m/s]."""
+    speed, down = float(memory["path_speed"]), float(memory["vertical_speed"])
+    level = math.sqrt(max(0.0, speed * speed - down * down))
+    return level * math.cos(psi) + navigation.current_north, level * math.sin(psi) + navigation.current_east, down
+
+
+def _display(seen: Observed) -> Fields | None:
+    """What a pilot sees: ground software takes speed and height from here."""
+    navigation = seen.view.navigation
+    if navigation is None or seen.memory is None:
+        return None
+    readings = seen.view.situation.readings
+    north, east, down = _velocity(seen.memory, navigation, readings.psi)
+    return {
+        "airspeed": float(seen.memory["path_speed"]),
+        "groundspeed": math.hypot(north, east),
+        "alt": -readings.depth,
+        "climb": -down,
+        "heading": round(math.degrees(readings.psi)) % 360,
     }
 
 
@@ -81,10 +110,7 @@ def _position(seen: Observed) -> Fields | None:
         return None
     readings = seen.view.situation.readings
     above = clipped(-1e3 * readings.depth, 32, signed=True)
-    speed, down = float(seen.memory["path_speed"]), float(seen.memory["vertical_speed"])
-    level = math.sqrt(max(0.0, speed * speed - down * down))
-    north = level * math.cos(readings.psi) + navigation.current_north
-    east = level * math.sin(readings.psi) + navigation.current_east
+    north, east, down = _velocity(seen.memory, navigation, readings.psi)
     return {
         "time_boot_ms": boot_ms(seen.t),
         "lat": degrees_e7(navigation.latitude),
@@ -137,7 +163,7 @@ def _share_left(seen: Observed) -> float:
 
 def _system_status(seen: Observed) -> Fields:
     battery = seen.said("Battery")
-    return {
+    return sensor_health(seen.view.safety) | {
         "voltage_battery": clipped(1e3 * battery.get("voltage", math.nan), 16, signed=False, unknown=_UNKNOWN_U16),
         "current_battery": clipped(100.0 * battery.get("current", math.nan), 16, signed=True, unknown=-1),
         "battery_remaining": clipped(_share_left(seen), 8, signed=True, unknown=-1),
@@ -273,6 +299,7 @@ TELEMETRY = (
     TelemetryRow("GLOBAL_POSITION_INT", 5.0, Priority.STATE, _position),
     TelemetryRow("NAVIGATION_ESTIMATE", 10.0, Priority.STATE, _navigation),
     TelemetryRow("GPS_RAW_INT", 5.0, Priority.STATE, _gps),
+    TelemetryRow("VFR_HUD", 5.0, Priority.STATE, _display),
     TelemetryRow("ATTITUDE", 2.0, Priority.STATE, _attitude),
     TelemetryRow("SYS_STATUS", 5.0, Priority.STATE, _system_status),
     TelemetryRow("BATTERY_STATUS", 20.0, Priority.STATE, _battery),

@@ -1,6 +1,7 @@
 """The vehicle's end of the link: every service, bound to the coordinator."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 from stommel.link.commands.identity import Identity
@@ -29,7 +30,7 @@ from stommel.onboard.radio.mission_port import MissionPort
 from stommel.onboard.radio.observed import Observed, observe
 from stommel.onboard.radio.parameter_port import VehicleParameters
 from stommel.onboard.radio.shore_clock import ShoreClock
-from stommel.onboard.radio.telemetry import Telemetry
+from stommel.onboard.radio.telemetry import WARNING, Telemetry
 from stommel.onboard.radio.telemetry_table import surface_time_left
 from stommel.version import __version__
 
@@ -93,7 +94,7 @@ class VehicleLink:
         bench: bool = False,
     ) -> None:
         self._coordinator, self.guard, self._utc = coordinator, guard, utc
-        self._missions, self._fly = missions, fly
+        self.missions, self._fly = missions, fly
         self._bench = bench
         coordinator.key_alarm = guard.alarm
         self._seen: Observed | None = None
@@ -101,7 +102,7 @@ class VehicleLink:
         rate = LineRate(settings.bit_rate, half_duplex=settings.half_duplex)
         self.session = Session(*me, (), PortGuard(guard, int(bench), bench), rate)
         self.presence, self.time_sync = Presence(), TimeSync(utc)
-        self._parameters = VehicleParameters(coordinator)
+        self.parameters = VehicleParameters(coordinator)
         self.telemetry, self._reports = Telemetry(settings.bit_rate / 10.0), DiveReports()
         port = VehicleCommands(coordinator, missions, restart)
         self.commands = CommandServer(*me, port, ShoreClock(self.time_sync), storage)
@@ -109,16 +110,17 @@ class VehicleLink:
             self.session, self.time_sync, surface_time_left=self._surface_time_left, refusals=guard.refusals
         )
         self.key_answer = KeyAnswer(guard, random)
+        warn = partial(self.telemetry.tell, WARNING)
         self.session.services = [
             Challenge(guard),
             self.key_answer,
             self.presence,
             self.time_sync,
             self.commands,
-            StandardCommands(*me, port, self.telemetry, Identity(__version__), self.commands.abort_came),
-            ParameterServer(settings.system, self._parameters),
+            StandardCommands(*me, port, self.telemetry, Identity(__version__), self.commands.abort_came, warn),
+            ParameterServer(settings.system, self.parameters),
             OrdersServer(*me, missions, missions),
-            WaypointServer(*me, missions),
+            WaypointServer(*me, missions, warn),
             *services,
             self.telemetry,
             self._reports,
@@ -134,14 +136,14 @@ class VehicleLink:
             self._seen = seen
             self.telemetry.observe(seen)
             self._reports.observe(seen)
-            self._parameters.observe()
+            self.parameters.observe()
 
     def take(self, data: bytes, t: float) -> None:
         """Take bytes that the radio has received until a time [s]; a mission that came is flown from here on."""
         if not self._bench:
             self._coordinator.instruments.radio.take(data, t)  # health tells when the shore was last heard
         self.session.take(data, t)
-        store = self._missions.opened
+        store = self.missions.opened
         if store is not None and store.active is not None and store.active.number != self._coordinator.mission:
             self._fly(store.active)
 

@@ -1,5 +1,6 @@
 """The air between the vehicle's radio and a shore, on the loop's time."""
 
+import math
 from collections.abc import Callable
 from typing import Protocol
 
@@ -10,6 +11,8 @@ from stommel.sitl.radio.antenna import Antenna
 
 LOOKS = 10
 """How often in a step both ends hear and speak."""
+_IDLE = 2
+"""Looks at which neither end had anything to say, and nothing was on its way, after which a step is done."""
 
 
 class End(Protocol):
@@ -72,17 +75,25 @@ class Air:
             self._speak(self.shore, t, 0.0, ashore=True)
             return
         self.antenna.look()
-        for look in range(LOOKS):
+        idle = 0
+        for look in range(LOOKS if self.shore is not None or self.wait is not None else 1):
             now = t + step * look / LOOKS
             if self.wait is not None:
                 self.wait(now)
-            self._speak(vehicle if on else None, now, offset, ashore=False)
-            self._speak(self.shore, now, 0.0, ashore=True)
+            spoke = self._speak(vehicle if on else None, now, offset, ashore=False)
+            spoke |= self._speak(self.shore, now, 0.0, ashore=True)
+            idle = 0 if spoke or self.channel.next_event() < math.inf else idle + 1
+            if idle >= _IDLE and self.wait is None:
+                return
 
-    def _speak(self, end: End | None, t: float, offset: float, *, ashore: bool) -> None:
+    def _speak(self, end: End | None, t: float, offset: float, *, ashore: bool) -> bool:
+        """Let an end hear and speak; whether it did either."""
         port = self.channel.shore if ashore else self.channel.vehicle
         data = port.read(t)
         if end is None:
-            return
+            return False
         end.take(data, t + offset)
-        port.write(end.poll(t + offset, port.room(t)), t)
+        said = end.poll(t + offset, port.room(t))
+        if said:
+            port.write(said, t)
+        return bool(data or said)

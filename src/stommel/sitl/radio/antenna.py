@@ -36,9 +36,14 @@ class Antenna:
     def __init__(self, plant: Plant) -> None:
         self._plant = plant
         self._height = -math.inf
+        self._looks = True
 
     def look(self) -> None:
-        """Look where the vehicle is now; what the waves do is asked between two looks."""
+        """Look where the vehicle is now, when anybody asks; what the waves do is asked between two looks."""
+        self._looks = True
+
+    def _look(self) -> None:
+        self._looks = False
         s = self._plant.setup
         if not s.world["afloat"]:
             self._height = -math.inf
@@ -50,6 +55,8 @@ class Antenna:
 
     def emerges(self, t: float) -> bool:
         """Whether it is out of the water at a time of the mission [s]."""
+        if self._looks:
+            self._look()
         if not math.isfinite(self._height):
             return self._height > 0.0
         waves = self._plant.setup.sea.waves

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
+from stommel.files.storage import Storage
 from stommel.link.commands.identity import Identity
 from stommel.link.commands.server import CommandServer
 from stommel.link.commands.standard import StandardCommands
@@ -20,7 +21,6 @@ from stommel.link.signing.challenge import Challenge
 from stommel.link.signing.guard import Guard, PortGuard
 from stommel.link.signing.key_change import KeyAnswer
 from stommel.link.statistics import Statistics
-from stommel.link.storage import Storage
 from stommel.link.time_sync import TimeSync
 from stommel.onboard.coordination.coordinator import Coordinator
 from stommel.onboard.coordination.stores.missions import StoredMission

@@ -16,6 +16,7 @@ from stommel.cli.status import INTERRUPTED
 from stommel.errors import StommelError
 
 if TYPE_CHECKING:
+    from stommel.files.folder_storage import FolderStorage
     from stommel.link.shore.shore_end import ShoreEnd
     from stommel.link.signing.guard import Guard
     from stommel.link.transports.transport import Transport
@@ -122,14 +123,13 @@ def line_to(to: str, key: Path | None, unsigned: bool, vehicle: int | None, stat
     StommelError
         The address, the key or the folder cannot be used.
     """
-    from stommel.files.folder_storage import FolderStorage
     from stommel.link.shore.shore_end import ShoreEnd, ShoreSettings
     from stommel.link.transports.address import read_address
     from stommel.link.transports.opening import open_transport
 
     guard, number = _guard(key, unsigned, vehicle, state)
     address = read_address(to, "--to")
-    folder = _state_folder(state, number)
+    storage = _storage(state, number)
     began, utc = time.monotonic(), time.time()
 
     def now() -> float:
@@ -140,7 +140,7 @@ def line_to(to: str, key: Path | None, unsigned: bool, vehicle: int | None, stat
     settings = ShoreSettings(number, float(address.bit_rate or FAST), half_duplex=address.bit_rate is not None)
     transport = open_transport(address)
     try:
-        yield Line(ShoreEnd(settings, guard, system, os.urandom, FolderStorage(folder), now()), transport, now)
+        yield Line(ShoreEnd(settings, guard, system, os.urandom, storage, now()), transport, now)
     except KeyboardInterrupt:
         typer.echo("interrupted; what has come is kept, and the same command goes on from there", err=True)
         raise typer.Exit(INTERRUPTED) from None
@@ -150,7 +150,6 @@ def line_to(to: str, key: Path | None, unsigned: bool, vehicle: int | None, stat
 
 def _guard(key: Path | None, unsigned: bool, vehicle: int | None, state: Path | None) -> tuple["Guard", int]:
     """The guard, and the vehicle that it is for."""
-    from stommel.files.folder_storage import FolderStorage
     from stommel.link.service import SHORE_SYSTEM
     from stommel.link.signing.guard import Guard
     from stommel.link.signing.key_file import KeyFile
@@ -164,7 +163,20 @@ def _guard(key: Path | None, unsigned: bool, vehicle: int | None, state: Path | 
     number = file.read().vehicle
     if vehicle not in (None, number):
         raise typer.BadParameter(f"{vehicle}: {key} is the key of vehicle {number}", param_hint="--vehicle")
-    return Guard(SHORE_SYSTEM, file, FolderStorage(_state_folder(state, number)), time.time(), os.urandom), number
+    return Guard(SHORE_SYSTEM, file, _storage(state, number), time.time(), os.urandom), number
+
+
+def _storage(state: Path | None, vehicle: int) -> "FolderStorage":
+    """The folder of the terminal's memory, opened."""
+    from stommel.files.folder_storage import FolderStorage
+    from stommel.files.whole import require_folder
+
+    folder = _state_folder(state, vehicle)
+    require_folder(folder)
+    try:
+        return FolderStorage(folder)
+    except OSError as error:
+        raise LinkError(f"--state = {folder}: {error.strerror or error}; must be a folder to write in") from error
 
 
 def _state_folder(state: Path | None, vehicle: int) -> Path:

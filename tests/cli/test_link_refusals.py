@@ -35,7 +35,7 @@ def test_state_folder_that_cannot_be(tmp_path: Path, state: str, *, signed: bool
     KeyFile(tmp_path / "a.key").write(new_keys(1, 1.8e9))
     who = ("--key", "a.key") if signed else ("--unsigned",)
     line = refused(tmp_path, "status", *who, "--state", state)
-    assert line == f"error: {state}: cannot be written: Not a directory"
+    assert line == f"error: {state}/vehicle-1: cannot be written: Not a directory"
 
 
 def follow(folder: Path, *arguments: object) -> Outcome:
@@ -43,8 +43,8 @@ def follow(folder: Path, *arguments: object) -> Outcome:
 
 
 def test_damaged_queue_of_commands_is_told_and_not_shown_as_empty(tmp_path: Path) -> None:
-    (tmp_path / "state").mkdir()
-    (tmp_path / "state" / "commands").write_bytes(bytes(range(40)))
+    (tmp_path / "state" / "vehicle-1").mkdir(parents=True)
+    (tmp_path / "state" / "vehicle-1" / "commands").write_bytes(bytes(range(40)))
     (note,) = follow(tmp_path, "--json").json["notes"]
     assert note.startswith("commands: is damaged")
     assert "note: commands: is damaged" in follow(tmp_path).out
@@ -62,6 +62,14 @@ def test_commands_of_before_the_clock_was_set_back_are_told_as_taken_back(
     assert all(each["words"].startswith("taken back") for each in found["commands"])
     assert [each["id"] for each in found["commands"]] == [given.json["id"]]
     assert "clock is 86400 s behind" in found["notes"][0]
+
+
+def test_commands_for_one_vehicle_are_not_those_of_another_in_the_same_folder(tmp_path: Path) -> None:
+    """Given ashore to vehicle 1 while it is away; whoever then speaks to vehicle 2 must not say it there."""
+    give = ("link", "command", "send", "hold", "--unsigned", "--state", "state", *NOBODY, "--json")
+    given = run_here(tmp_path, *give, "--vehicle", 1).json
+    assert follow(tmp_path, "--json", "--vehicle", 2).json["commands"] == []
+    assert [each["id"] for each in follow(tmp_path, "--json").json["commands"]] == [given["id"]]
 
 
 @contextmanager

@@ -50,7 +50,9 @@ VehicleOption = Annotated[
 StateOption = Annotated[
     Path | None,
     typer.Option(
-        "--state", metavar="FOLDER", help="Folder of what must outlive the program: commands, stamps, parameters."
+        "--state",
+        metavar="FOLDER",
+        help="Folder of what must outlive the program, by vehicle: commands, stamps, parameters.",
     ),
 ]
 WithinOption = Annotated[
@@ -188,7 +190,7 @@ def _storage(state: Path | None, vehicle: int) -> "FolderStorage":
 def _state_folder(state: Path | None, vehicle: int) -> Path:
     """Where the terminal keeps what it must know tomorrow."""
     if state is not None:
-        return state
+        return state / f"vehicle-{vehicle}"  # a command for one vehicle never goes to another
     variable, default = (
         ("LOCALAPPDATA", "AppData/Local") if sys.platform == "win32" else ("XDG_STATE_HOME", ".local/state")
     )

@@ -342,8 +342,10 @@ CASES: dict[str, dict[str, Case]] = {
 ELSEWHERE = {
     "sitl fly": "tests/sitl: --log, --output, --plots, --track, --seed, --separate-nodes, --speed, --no-live, "
     "--parameters",
-    "sitl stand-in": "tests/sitl/test_real_ports.py: --ports, --channel, --seconds, --parameters",
-    "vehicle run": "tests/sitl/test_real_ports.py: --mission, --start, --seconds",
+    "sitl stand-in": "tests/sitl/test_real_ports.py: --ports, --channel, --seconds, --parameters; "
+    "tests/sitl/test_link_on_real_ports.py: --link",
+    "vehicle run": "tests/sitl/test_real_ports.py: --mission, --start, --seconds; "
+    "tests/sitl/test_link_on_real_ports.py: --supervised",
     "sitl campaign": "tests/sitl/test_campaign_command: --output, --runs, --seed, --workers, --scheduler, --restart",
     "sitl replay": "tests/sitl/test_campaign_command: --seed",
     "study": "tests/studies: --output, --workers, --scheduler, --restart, --plots",

@@ -841,13 +841,33 @@ def test_every_verb_is_looked_at() -> None:
     [
         (
             "vehicle_run",
-            {"decisions": 3599, "mean_step_ms": 1.26, "longest_step_ms": 8.74, "late_steps": 2, "failed_steps": 1},
-            {"decisions": 3599, "one decision": [1.3, 8.7], "late": 2, "failed": 1},
+            {
+                "decisions": 3599,
+                "mean_step_ms": 1.26,
+                "longest_step_ms": 8.74,
+                "late_steps": 2,
+                "failed_steps": 1,
+                "link_failures": 3,
+                "start_again": True,
+            },
+            {
+                "decisions": 3599,
+                "one decision": [1.3, 8.7],
+                "late": 2,
+                "failed": 1,
+                "link failures": 3,
+                "restart": "asked for by the shore",
+            },
         ),
         (
             "sitl_stand_in",
-            {"time_s": 61.0, "depth_m": 12.34, "nodes": {"motion": "safe", "acquisition": "operational"}},
-            {"depth": 12.3, "nodes": "motion safe, acquisition operational"},
+            {
+                "time_s": 61.0,
+                "depth_m": 12.34,
+                "nodes": {"motion": "safe", "acquisition": "operational"},
+                "radio": {"sent_bytes": 5120, "heard_bytes": 77},
+            },
+            {"depth": 12.3, "radio": [5120, 77], "nodes": "motion safe, acquisition operational"},
         ),
     ],
 )

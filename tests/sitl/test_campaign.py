@@ -18,7 +18,7 @@ from stommel.sitl.campaign.run import TRIAL, load_kit, run_campaign, scenario_te
 from stommel.sitl.campaign.shrink import fewest
 from stommel.sitl.campaign.verdict import FAILED, PASSED, UNSURVIVABLE, wrong_log
 from stommel.sitl.faults.fault import Fault
-from stommel.sitl.faults.table import ANALOG, BY_NAME, SENSORS
+from stommel.sitl.faults.table import ANALOG, BY_NAME, DRAWN, KINDS, SENSORS
 from stommel.sitl.scenario import load_scenario
 from stommel.studies.errors import StudyError, StudyInterruptedError
 
@@ -52,7 +52,13 @@ def test_faults_follow_from_the_seed_and_are_within_their_rows() -> None:
                 assert fault.target in ANALOG
                 assert abs(fault.value) <= SENSORS[fault.target].bias
     assert numbers == {1, 2, 3, 4}
-    assert kinds == set(BY_NAME)
+    assert kinds == {row.name for row in DRAWN}
+
+
+def test_a_seed_means_what_it_meant_before_the_radio_could_break() -> None:
+    """Oracle: the flight that the guide tells of. Kinds of the radio are flown on purpose only."""
+    assert Fault("clock_jump", "", 1462.0, 24.0, -2495.0) in load_kit(TRIAL).faults_of(57)
+    assert {row.name for row in KINDS} - {row.name for row in DRAWN} == {"radio_dead", "radio_packets_lost"}
 
 
 # shrinking
@@ -81,7 +87,7 @@ def test_a_planted_bug_of_two_faults_is_shrunk_to_them(monkeypatch: pytest.Monke
 
     culprits = {"disk_full", "gps_jump"}
 
-    def planted(_mission: Mission, faults: Any) -> Any:
+    def planted(_mission: Mission, faults: Any, _radio: Any) -> Any:
         bad = culprits <= {fault.kind for fault in faults}
         return SimpleNamespace(verdict=FAILED if bad else PASSED, why="planted", ending="")
 

@@ -49,7 +49,7 @@ def test_each_option_of_a_campaign(folder: Path, in_this_process: list[int]) -> 
 def test_a_failing_flight_is_written_as_scenarios_and_is_the_exit_status(
     folder: Path, in_this_process: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def planted(_mission: Any, faults: Any) -> Verdict:
+    def planted(_mission: Any, faults: Any, _radio: Any) -> Verdict:
         return Verdict(FAILED if faults else "passed", "planted", "somewhere")
 
     monkeypatch.setattr(kit, "fly_with", planted)

@@ -335,6 +335,30 @@ def hull_leak(mission: Mission) -> None:
     assert 1e6 * float(leaked) == pytest.approx(10.0)
 
 
+# radio
+
+
+def radio_dead(mission: Mission) -> None:
+    system, arrived = flown(mission, fault("radio_dead", at=40.0, lasts=20.0), 40), []
+    for seconds in (0, 20, 20):
+        for _ in range(seconds):
+            system.step()
+        arrived.append(system.air.channel.vehicle.counts.arrived_bytes)
+    assert 0 < arrived[0] == arrived[1] < arrived[2]
+
+
+def radio_packets_lost(mission: Mission) -> None:
+    counts = [
+        flown(mission, broken, 80).air.channel.vehicle.counts
+        for broken in (None, fault("radio_packets_lost", value=0.5), fault("radio_packets_lost", value=0.5, lasts=1.0))
+    ]
+    assert all(each.packets > 50 for each in counts)
+    washed_over, half, brief = (each.lost / each.packets for each in counts)
+    assert washed_over < 0.2
+    assert half == pytest.approx(0.5 + 0.5 * washed_over, abs=0.15)
+    assert brief == pytest.approx(washed_over, abs=0.05)
+
+
 CHECKS: dict[str, Callable[[Mission], None]] = {
     check.__name__: check
     for check in (
@@ -342,7 +366,7 @@ CHECKS: dict[str, Callable[[Mission], None]] = {
         sensor_biased, sensor_noisy, sensor_silent, gps_jump, bytes_garbled, bytes_lost, pump_dead, pump_weak,
         oil_creeps, valve_stuck_open, valve_stuck_shut, limit_switch_broken, limit_switch_pressed, mass_jammed,
         steering_jammed, brown_out, supply_drop, battery_run_down, current_spike, decision_exception, disk_full,
-        clock_jump, early_expiry, hull_leak,
+        clock_jump, early_expiry, hull_leak, radio_dead, radio_packets_lost,
     )
 }  # fmt: skip
 

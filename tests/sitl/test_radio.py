@@ -191,14 +191,13 @@ def test_orders_that_are_held_come_back_as_the_file_that_is_flown(flight: Flight
 
 def test_the_log_comes_home_over_several_surfacings(trial: Mission) -> None:
     """The radio is so slow that a log needs more than one surfacing. Oracle: the bytes on the vehicle's disk."""
-    flight = Flight(trial, ChannelSettings(bit_rate=2400.0, loss=0.1))
+    flight = Flight(trial, ChannelSettings(bit_rate=1200.0, loss=0.1, whole_frames=True))
     end, disk = flight.shore.end, MemoryFolder()
     flight.until(lambda: end.is_heard(flight.now))
     listing = end.listing("log")
     flight.until(lambda: listing.state.is_over)
     name = next(entry.name for entry in listing.entries if "detail" in entry.name)
     begun = end.download(f"log/{name}", disk, name)
-    dives = 0
     flight.until(lambda: begun.state.is_over)
     memory = flight.system.coordinator.pilot.memory
     dives = 0 if memory is None else int(memory["dives"])

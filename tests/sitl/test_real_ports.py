@@ -141,7 +141,7 @@ def test_terminals_carry_bytes_both_ways_and_go(tmp_path: Path) -> None:
         port.write(b"LOG\r\n")
         until, heard = time.monotonic() + 5.0, b""
         while heard != b"LOG\r\n" and time.monotonic() < until:
-            heard += terminals.read()["compass"]
+            heard += terminals.read("compass")
     assert heard == b"LOG\r\n"
     terminals.close()
     assert not list((tmp_path / "ports").iterdir())

@@ -35,6 +35,23 @@ KeyOption = Annotated[
 
 
 @contextmanager
+def connected(address: str | None) -> Iterator["Outside | None"]:
+    """Open the address for a shore; nothing where there is none."""
+    if address is None:
+        yield None
+        return
+    from stommel.link.transports.opening import open_transport
+    from stommel.sitl.radio.outside import Outside
+
+    transport = open_transport(address, "--link")
+    try:
+        typer.echo(f"shore: {transport.name}", err=True)
+        yield Outside(transport)
+    finally:
+        transport.close()
+
+
+@contextmanager
 def shore_at(address: str | None, key: Path | None) -> Iterator[tuple["Outside | None", "Guard | None"]]:
     """Open the address for a shore, and its end of the keys; nothing where there is none."""
     if address is None:
@@ -44,14 +61,10 @@ def shore_at(address: str | None, key: Path | None) -> Iterator[tuple["Outside |
         return
     from stommel.link.signing.guard import Guard
     from stommel.link.signing.key_file import KeyFile
-    from stommel.link.transports.opening import open_transport
     from stommel.sitl.faults.disk import MemoryDisk
-    from stommel.sitl.radio.outside import Outside
     from stommel.sitl.radio.station import SYSTEM
 
-    transport = open_transport(address, "--link")
-    try:
-        typer.echo(f"radio: {transport.name}", err=True)
+    with connected(address) as shore:
         if key is None:
             typer.echo("note: no --key: the vehicle believes whoever connects", err=True)
             guard = Guard.unsigned(SYSTEM)
@@ -60,9 +73,7 @@ def shore_at(address: str | None, key: Path | None) -> Iterator[tuple["Outside |
             file.read()
             # stamps are of the real world: who connects has a real clock
             guard = Guard(SYSTEM, file, MemoryDisk(), time.time(), os.urandom)
-        yield Outside(transport), guard
-    finally:
-        transport.close()
+        yield shore, guard
 
 
 def radio_at_the_end(system: "System") -> dict[str, Any]:

@@ -12,6 +12,7 @@ from stommel.cli.finish import finish
 from stommel.cli.numbers import number_option
 from stommel.cli.options import JsonOption
 from stommel.cli.output import show_values
+from stommel.cli.status import START_AGAIN
 
 if TYPE_CHECKING:
     from stommel.onboard.coordination.stores.missions import MissionStore
@@ -30,6 +31,13 @@ def run(
     ] = None,
     start: Annotated[
         bool, typer.Option("--start", help="Begin the mission once the start checks have passed.")
+    ] = False,
+    supervised: Annotated[
+        bool,
+        typer.Option(
+            "--supervised",
+            help="Something starts this program again when it ends: the shore may ask for it (status 75).",
+        ),
     ] = False,
     seconds: Annotated[
         float | None, number_option("--seconds", 1.0, LONGEST, "s", "Stop after this time; without it, never")
@@ -50,7 +58,9 @@ def run(
     ports = open_ports(settings, str(configuration))
     try:
         with claimed(settings):
-            software = VehicleSoftware(settings, ports, lambda words: typer.echo(words, err=True))
+            software = VehicleSoftware(
+                settings, ports, lambda words: typer.echo(words, err=True), supervised=supervised
+            )
             if mission is not None:
                 _load(software.missions, mission)
             software.take_mission(software.clock.monotonic())
@@ -62,6 +72,8 @@ def run(
     finally:
         ports.close()
     finish(_answer(figures), None, as_json, _show)
+    if figures.restart:
+        raise typer.Exit(START_AGAIN)
 
 
 @contextmanager
@@ -94,6 +106,8 @@ def _answer(figures: "Figures") -> dict[str, Any]:
         "longest_step_ms": figures.longest_step_ms,
         "late_steps": figures.late,
         "failed_steps": figures.exceptions,
+        "link_failures": figures.link_failures,
+        "start_again": figures.restart,
     }
 
 
@@ -105,5 +119,7 @@ def _show(row: dict[str, Any]) -> None:
             "one decision": f"{row['mean_step_ms']:.1f} ms (mean), {row['longest_step_ms']:.1f} ms at most",
             "late": str(row["late_steps"]),
             "failed": str(row["failed_steps"]),
+            "link failures": str(row["link_failures"]),
+            **({"restart": "asked for by the shore"} if row["start_again"] else {}),
         },
     )

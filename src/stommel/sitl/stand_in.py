@@ -12,16 +12,19 @@ from types import TracebackType
 from typing import Self
 
 from stommel.errors import StommelError
+from stommel.link.channel.settings import ChannelSettings
 from stommel.messages.bus import CanBus
 from stommel.messages.frames import Frame
-from stommel.onboard.coordination.own_instruments import PORTS
+from stommel.onboard.coordination.own_instruments import PORTS, RADIO
 from stommel.onboard.execution.acquisition_node import AcquisitionNode
 from stommel.onboard.execution.motion_node import MotionNode
 from stommel.simulation.scenario.mission import Mission
+from stommel.sitl.radio.air import LOOKS, Air, End
+from stommel.sitl.radio.outside import MOST_WAITING, Outside
 from stommel.sitl.real_time import Pace
 from stommel.sitl.system import System
 
-ANSWER_TIME = 0.9
+ANSWER_TIME = 1.0 - 1.0 / LOOKS
 """Share of a step within which the coordinator is heard before the nodes obey what they were told."""
 _READ_AT_ONCE = 4096
 
@@ -47,9 +50,9 @@ class Terminals:
             path.symlink_to(os.ttyname(theirs))
             self.paths[name] = path
 
-    def read(self) -> dict[str, bytes]:
+    def read(self, name: str) -> bytes:
         """What the vehicle's software has written since the last call."""
-        return {name: _read(ours) for name, (ours, _) in self._ends.items()}
+        return _read(self._ends[name][0])
 
     def write(self, name: str, data: bytes) -> None:
         """Send bytes to the vehicle's software; what nobody reads is lost, as on a wire."""
@@ -85,20 +88,59 @@ class _OtherProcess:
     view = None
     pilot = _Pilot()
 
-    def __init__(self, bus: CanBus, terminals: Terminals, wait: Callable[[], None]) -> None:
+    def __init__(self, bus: CanBus, terminals: Terminals, wait: Callable[[float], None]) -> None:
         self._bus, self._terminals, self._wait = bus, terminals, wait
 
     def step(
         self, t: float, frames: Iterable[Frame], bytes_in: Mapping[str, bytes]
     ) -> tuple[list[Frame], dict[str, bytes]]:
         """Send what nodes and instruments say; after a while return what was answered."""
-        del t
         for frame in frames:
             self._bus.send(frame)
         for name, data in bytes_in.items():
             self._terminals.write(name, data)
-        self._wait()
-        return self._bus.receive(), self._terminals.read()
+        self._wait(t)
+        return self._bus.receive(), {name: self._terminals.read(name) for name in bytes_in if name != RADIO}
+
+
+class _RadioPort:
+    """The radio's terminal, as a wire."""
+
+    def __init__(self, terminals: Terminals) -> None:
+        self._terminals = terminals
+
+    def read(self, t: float) -> bytes:
+        """Return what the vehicle's software has said."""
+        del t
+        return self._terminals.read(RADIO)
+
+    def write(self, data: bytes, t: float) -> int:
+        """Let the vehicle's software hear."""
+        del t
+        self._terminals.write(RADIO, data)
+        return len(data)
+
+
+class _OtherEnd(Outside):
+    """The vehicle's end of the link on the other side of the port, as the loop asks it."""
+
+    def observe(self, t: float) -> None:
+        """Nothing is to be seen from here."""
+
+    def rest(self, t: float) -> None:
+        """Lose what is said to a radio without power."""
+        self.poll(t, MOST_WAITING)
+
+
+class _AirMeanwhile(Air):
+    """The air, whose time passes while the coordinator's answer is waited for."""
+
+    def pass_time(self, vehicle: End | None, t: float, step: float, offset: float, *, on: bool) -> None:
+        """Do nothing: it has passed."""
+
+    def meanwhile(self, vehicle: End, t: float, step: float, *, on: bool) -> None:
+        """Let a step pass in real time, but for the last of its looks."""
+        super().pass_time(vehicle, t, step, 0.0, on=on)
 
 
 class StandIn:
@@ -112,6 +154,10 @@ class StandIn:
         That the software uses too.
     folder
         In which the serial ports appear, by the names of the configuration's tables.
+    radio
+        What the air between the radio and the shore is like; as on a calm day if left out.
+    shore
+        Whoever is at the other end of the radio; nobody if left out.
     clock, sleep
         Of the computer.
     parameters
@@ -125,14 +171,19 @@ class StandIn:
         folder: Path,
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
+        radio: ChannelSettings | None = None,
+        shore: End | None = None,
         parameters: Path | None = None,
     ) -> None:
         self.system = System(mission, parameters=parameters)
         self.terminals = Terminals(folder, PORTS)
-        self._bus = bus
+        self._bus, self._clock, self._sleep = bus, clock, sleep
         self._pace = Pace(1.0, clock, sleep)
-        waited = ANSWER_TIME * self.system.plant.step
-        self.system.coordinator = _OtherProcess(bus, self.terminals, lambda: sleep(waited))  # type: ignore[assignment]
+        self._air = _AirMeanwhile(self.system.plant, ChannelSettings() if radio is None else radio, shore)
+        self._end = _OtherEnd(_RadioPort(self.terminals))
+        self.system.air = self._air
+        self.system.link = self._end  # type: ignore[assignment]
+        self.system.coordinator = _OtherProcess(bus, self.terminals, self._wait)  # type: ignore[assignment]
 
     @property
     def modes(self) -> dict[str, str]:
@@ -152,6 +203,12 @@ class StandIn:
     ) -> None:
         self.terminals.close()
         self._bus.close()
+
+    def _wait(self, t: float) -> None:
+        """Wait for the coordinator's answer; vehicle and shore speak to each other by radio meanwhile."""
+        began = self._clock()
+        self._air.wait = lambda now: self._sleep(max(0.0, began + now - t - self._clock()))
+        self._air.meanwhile(self._end, t, self.system.plant.step, on=self.system.switched.radio)
 
     def run(self, seconds: float, stop: Callable[[], bool] = lambda: False) -> None:
         """Let a time of the vehicle pass [s], or until told to stop."""

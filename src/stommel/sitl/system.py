@@ -197,7 +197,11 @@ class System:
         runs, clock = inject.runs(COORDINATOR), inject.clock(t)
         if runs:
             self.link.observe(clock)
-        self.air.pass_time(self.link if runs else None, t, self.plant.step, clock - t, on=self.switched.radio)
+            if not self.switched.radio:
+                self.link.rest(clock)
+        self.air.worsen(inject.radio_loss())
+        on = self.switched.radio and inject.radio_works()
+        self.air.pass_time(self.link if runs else None, t, self.plant.step, clock - t, on=on)
 
     def _started_coordinator(self, t: float, logbook: Logbook | None) -> Coordinator:
         """Switch the coordinator on, with what its disk keeps of the time before."""

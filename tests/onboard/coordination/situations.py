@@ -99,6 +99,7 @@ WELL = Situation(
     exceptions=0,
     restarts=0,
     log_writable=True,
+    key_alarm=False,
 )
 """Proven, at the surface, with a mission."""
 

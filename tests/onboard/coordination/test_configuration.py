@@ -93,7 +93,7 @@ def models(model: type[BaseModel]) -> Iterator[type[BaseModel]]:
 def test_every_key_is_written_with_what_it_means(text: str) -> None:
     """Above each is its docstring; those without a value are there as comments."""
     found = list(models(ConfigurationFile))
-    assert len(found) == 14
+    assert len(found) == 15
     plain = " ".join(text.replace("\n# ", " ").split())
     for model in found:
         for key, meaning in attribute_docstrings(model).items():
@@ -115,6 +115,7 @@ def test_what_may_be_left_out(tmp_path: Path) -> None:
     assert found.schedule == PowerSchedule(gps=gps)
     assert found.calibration == CompassCalibration()
     assert (found.adapter.interface, found.adapter.channel) == ("socketcan", "can0")
+    assert (found.file.radio.key, found.file.radio.unsigned, found.file.bench.port) == ("radio.key", False, None)
     assert found.coordinator.masking.longest == 20.0
     assert found.compass == CompassSettings(polled=False)
     assert found.path(found.file.log.folder) == tmp_path / "log"
@@ -245,6 +246,12 @@ def test_rates_of_the_ports_are_those_that_open() -> None:
          "gnss.interval_s = 0.2: must be at least 0.27 s, in which gnss.baud = 9600 carries 256 bytes"),
         ("[safety]", '[can]\ninterface = "slcan"\nchannel = "/dev/c"\nbitrate = 500000\n[safety]',
          "radio.port = '/dev/c': is that of can too; each needs a port of its own"),
+        ("[safety]", "[bench]\nport = '/dev/c'\n[safety]", "radio.port = '/dev/c': is that of bench too; each"),
+        ('port = "/dev/c"', 'port = "/dev/c"\nunsigned = 1', "radio.unsigned = 1: must be true or false"),
+        ("vehicle_id", "inbox = '.'\nvehicle_id", "inbox = '.': this file is there; received files need a folder of"),
+        ("vehicle_id", "inbox = 'a/Log'\nmissions = './a/log'\nvehicle_id", "inbox = 'a/Log': missions is there; "),
+        ("vehicle_id", "inbox = 'log'\nvehicle_id", "inbox = 'log': log.folder is there; received files need"),
+        ('port = "/dev/c"', 'port = "/dev/c"\nkey = "inbox/radio.key"', "inbox = 'inbox': radio.key is there; rec"),
         ("[safety]", "[power.decide_every_s]\ndrift = 0.0\n[safety]",
          "power.decide_every_s.drift = 0.0: must be between 0.1 and 60"),
         ("[safety]", "[power]\ngps_in = ['surfaced']\n[safety]", "did you mean surface?"),

@@ -131,6 +131,7 @@ CASES = {
     "software exceptions in a row": Case(R.ABORT, lambda _: {"exceptions": 4}, lambda _: {"exceptions": 3}),
     "node restarted": Case(R.REPORT, lambda s: {"restarts": 1 + int(s)}),
     "log not written": _flag(R.REPORT, log_writable=False),
+    "radio key": _flag(R.REPORT, key_alarm=True),
     "unproven safety input": _flag(R.NO_DIVE, leak_proven=False),
 }
 ROWS = pytest.mark.parametrize("row", FAILSAFES, ids=lambda row: row.name)

@@ -36,7 +36,7 @@ def test_a_second_program_is_kept_out(tmp_path: Path, top: str, log: str, key: s
 
 def test_one_folder_may_serve_for_all(tmp_path: Path) -> None:
     with claimed(configured(tmp_path, "A.toml", 'missions = "all"\nparameters = "all"', 'folder = "./all"')):
-        assert [path.name for path in tmp_path.iterdir() if path.is_dir()] == ["all"]
+        assert sorted(path.name for path in tmp_path.iterdir() if path.is_dir()) == ["all", "inbox"]
 
 
 @pytest.mark.parametrize("key", FOLDERS)

@@ -135,11 +135,8 @@ def _watched(line: "Line", transfer: Any, what: str, within: float) -> None:
     with progress(what) as report:
 
         def watch() -> None:
-            heard = line.end.is_heard(line.now())
-            if heard == transfer.is_paused and not transfer.state.is_over:
-                transfer.resume(line.now()) if heard else transfer.pause()
             found = transfer.progress
-            report(found.share if found.size else None, _words(found, heard=heard))
+            report(found.share if found.size else None, _words(found))
 
         line.until(lambda: transfer.state.is_over, within, watch)
     if transfer.state is not State.WHOLE:
@@ -148,8 +145,8 @@ def _watched(line: "Line", transfer: Any, what: str, within: float) -> None:
         raise LinkError(transfer.reason or f"{what}: not whole within {within:g} s; {kept}: the same command goes on")
 
 
-def _words(found: "Progress", *, heard: bool) -> str:
-    if not heard:
+def _words(found: "Progress") -> str:
+    if found.is_paused:
         return "vehicle not heard, waiting"
     left = "" if found.seconds_left is None else f", {found.seconds_left:.0f} s left"
     return f"{found.done / 1000:.0f} of {(found.size or 0) / 1000:.0f} kB, {found.rate / 1000:.1f} kB/s{left}"

@@ -122,10 +122,10 @@ def line_to(to: str, key: Path | None, unsigned: bool, vehicle: int | None, stat
     StommelError
         The address, the key or the folder cannot be used.
     """
+    from stommel.files.folder_storage import FolderStorage
     from stommel.link.shore.shore_end import ShoreEnd, ShoreSettings
     from stommel.link.transports.address import read_address
     from stommel.link.transports.opening import open_transport
-    from stommel.onboard.coordination.stores.folder import FolderStorage
 
     guard, number = _guard(key, unsigned, vehicle, state)
     address = read_address(to, "--to")
@@ -150,10 +150,10 @@ def line_to(to: str, key: Path | None, unsigned: bool, vehicle: int | None, stat
 
 def _guard(key: Path | None, unsigned: bool, vehicle: int | None, state: Path | None) -> tuple["Guard", int]:
     """The guard, and the vehicle that it is for."""
+    from stommel.files.folder_storage import FolderStorage
     from stommel.link.service import SHORE_SYSTEM
     from stommel.link.signing.guard import Guard
     from stommel.link.signing.key_file import KeyFile
-    from stommel.onboard.coordination.stores.folder import FolderStorage
 
     if (key is None) != unsigned:
         told = "give the vehicle's key, or --unsigned for a vehicle that was told to believe everybody"

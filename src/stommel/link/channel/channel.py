@@ -93,6 +93,8 @@ class Channel:
 
     def __init__(self, settings: ChannelSettings, seed: int = 0, linked: Callable[[float], bool] | None = None) -> None:
         self.settings = settings
+        self.least_loss = 0.0
+        """Share of packets that is lost whatever the settings say: a worse day than they are for."""
         self.vehicle, self.shore = ChannelEnd(self, settings), ChannelEnd(self, settings)
         self._draw = np.random.default_rng((seed, 0))
         self._fading = Fading(settings.fade_every, settings.fade_length, np.random.default_rng((seed, 1)))
@@ -174,7 +176,7 @@ class Channel:
     def _is_lost(self, t: float) -> bool:
         settings = self.settings
         share = settings.fade_loss if self._fading.at(t) else settings.loss
-        return self._draw.random() < share or not self.is_linked(t)
+        return self._draw.random() < max(share, self.least_loss) or not self.is_linked(t)
 
     def _garbled(self, end: ChannelEnd, packet: bytes) -> bytes:
         if not self.settings.bit_error_rate:

@@ -4,6 +4,7 @@ import random
 from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
+from stommel.files.storage import Storage
 from stommel.link.commands.client import CommandClient
 from stommel.link.files.disk import Disk
 from stommel.link.files.download import Download
@@ -24,7 +25,6 @@ from stommel.link.signing.challenge import Challenge
 from stommel.link.signing.guard import Guard, PortGuard
 from stommel.link.signing.key_change import KeyOffer
 from stommel.link.statistics import LinkStatistics, Statistics
-from stommel.link.storage import Storage
 from stommel.link.time_sync import TimeSync
 
 S = TypeVar("S", Download, Upload, Listing, Release)
@@ -96,7 +96,11 @@ class ShoreEnd:
         self.session.take(data, t)
 
     def poll(self, t: float, room: int) -> bytes:
-        """Return at most so many bytes to send."""
+        """Return at most so many bytes to send; transfers rest while the vehicle is not heard, and go on when it is."""
+        heard = self.is_heard(t)
+        for transfer in self._passing:
+            if isinstance(transfer, Download | Upload) and heard == transfer.is_paused and not transfer.state.is_over:
+                transfer.resume(t) if heard else transfer.pause()
         return self.session.poll(t, room)
 
     def is_heard(self, t: float) -> bool:

@@ -26,6 +26,7 @@ class Inside(NamedTuple):
     mission_expired: bool
     exceptions: int
     log_writable: bool
+    key_alarm: bool
     drives_proven: tuple[bool, bool, bool]
     """Whether oil, moving mass and steering followed in the self-test."""
     has_altimeter: bool
@@ -97,6 +98,7 @@ def situation_of(seen: Perception, inside: Inside, readings: Readings, t: float)
         exceptions=inside.exceptions,
         restarts=watch.restarts_seen,
         log_writable=inside.log_writable,
+        key_alarm=inside.key_alarm,
     )
 
 

@@ -75,6 +75,8 @@ class Coordinator:
         self.view: View | None = None
         self.expires = float("inf")
         """Time at which the mission's time is over [s]."""
+        self.key_alarm = False
+        """Whether somebody has to look after the radio's key; the link says so."""
         self._encoder = Encoder()
         self._heartbeat = HeartbeatSender(COORDINATOR, self._encoder, before.starts, settings.kind)
         self._nodes = NodesControl.of(self._encoder, before.starts)
@@ -241,6 +243,7 @@ class Coordinator:
             mission_expired=t >= self.expires,
             exceptions=pilot.exceptions,
             log_writable=self.recorder.writable,
+            key_alarm=self.key_alarm,
             drives_proven=self._nodes.drives_proven,
             has_altimeter=self.settings.has_altimeter,
         )

@@ -352,6 +352,11 @@ FAILSAFES = (
         60.0, R.REPORT, C.SELF, 60.0, "SoftwareException", "make room on the disk, or change it",
     ),
     Failsafe(
+        "radio key", "nothing by radio is believed, or not safely: key or time stamps are missing or damaged", "link",
+        lambda now, *_: now.key_alarm,
+        0.0, R.REPORT, C.SELF, 0.0, "Unproven", "put the key in place (stommel link key), start the software anew",
+    ),
+    Failsafe(
         "unproven safety input", "a start check has not passed", "start checks",
         lambda _now, seen, *_: bool(seen.unproven),
         0.0, R.NO_DIVE, C.SELF, 0.0, "Unproven", "do what the start check's row says",

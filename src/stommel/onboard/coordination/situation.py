@@ -103,6 +103,8 @@ class Situation(NamedTuple):
     """How often the nodes have restarted since the coordinator started."""
     log_writable: bool
     """Whether the last record of the log is on disk."""
+    key_alarm: bool
+    """Whether nothing that comes by radio is believed, or not safely: its key or its time stamps are amiss."""
 
 
 class OperatorRequests(NamedTuple):

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
+from stommel.files.storage import Storage
 from stommel.link.commands.identity import Identity
 from stommel.link.commands.server import CommandServer
 from stommel.link.commands.standard import StandardCommands
@@ -20,7 +21,6 @@ from stommel.link.signing.challenge import Challenge
 from stommel.link.signing.guard import Guard, PortGuard
 from stommel.link.signing.key_change import KeyAnswer
 from stommel.link.statistics import Statistics
-from stommel.link.storage import Storage
 from stommel.link.time_sync import TimeSync
 from stommel.onboard.coordination.coordinator import Coordinator
 from stommel.onboard.coordination.stores.missions import StoredMission
@@ -73,6 +73,8 @@ class VehicleLink:
         More of them.
     restart
         Starts the software anew; None where nobody would.
+    bench
+        Whether this is the port at which whoever speaks is at the vehicle, and believed.
     """
 
     def __init__(
@@ -88,13 +90,17 @@ class VehicleLink:
         files: FilePort,
         services: tuple[Service, ...] = (),
         restart: Callable[[], None] | None = None,
+        *,
+        bench: bool = False,
     ) -> None:
         self._coordinator, self.guard, self._utc = coordinator, guard, utc
         self.missions, self._fly = missions, fly
+        self._bench = bench
+        coordinator.key_alarm = guard.alarm
         self._seen: Observed | None = None
         me = settings.system, VEHICLE_COMPONENT
         rate = LineRate(settings.bit_rate, half_duplex=settings.half_duplex)
-        self.session = Session(*me, (), PortGuard(guard), rate)
+        self.session = Session(*me, (), PortGuard(guard, int(bench), bench), rate)
         self.presence, self.time_sync = Presence(), TimeSync(utc)
         self.parameters = VehicleParameters(coordinator)
         self.telemetry, self._reports = Telemetry(settings.bit_rate / 10.0), DiveReports()
@@ -103,10 +109,11 @@ class VehicleLink:
         self.statistics = Statistics(
             self.session, self.time_sync, surface_time_left=self._surface_time_left, refusals=guard.refusals
         )
+        self.key_answer = KeyAnswer(guard, random)
         warn = partial(self.telemetry.tell, WARNING)
         self.session.services = [
             Challenge(guard),
-            KeyAnswer(guard, random),
+            self.key_answer,
             self.presence,
             self.time_sync,
             self.commands,
@@ -122,7 +129,8 @@ class VehicleLink:
         ]
 
     def observe(self, t: float) -> None:
-        """Look at what the coordinator has decided at a time [s]."""
+        """Look at what the coordinator has decided at a time [s]; it learns how the key is."""
+        self._coordinator.key_alarm = self.guard.alarm
         seen = observe(self._coordinator, self._utc(t))
         if seen is not None:
             self._seen = seen
@@ -132,7 +140,8 @@ class VehicleLink:
 
     def take(self, data: bytes, t: float) -> None:
         """Take bytes that the radio has received until a time [s]; a mission that came is flown from here on."""
-        self._coordinator.instruments.radio.take(data, t)  # health tells when the shore was last heard
+        if not self._bench:
+            self._coordinator.instruments.radio.take(data, t)  # health tells when the shore was last heard
         self.session.take(data, t)
         store = self.missions.opened
         if store is not None and store.active is not None and store.active.number != self._coordinator.mission:
@@ -141,6 +150,16 @@ class VehicleLink:
     def poll(self, t: float, room: int) -> bytes:
         """Return at most so many bytes for the radio to send."""
         return self.session.poll(t, room)
+
+    def rest(self, t: float) -> None:
+        """Let time pass while the radio is off: commands expire, and those for the next surfacing see the dive."""
+        self.commands.poll(t, self.session.outbox)
+
+    @property
+    def notes(self) -> list[str]:
+        """What there is to say to whoever reads the log."""
+        key = [] if self._bench else self.guard.status
+        return [*key, *self.session.notes, *self.commands.notes, *self.key_answer.notes]
 
     def _surface_time_left(self) -> float:
         return float("nan") if self._seen is None else surface_time_left(self._seen)

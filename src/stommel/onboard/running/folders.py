@@ -7,11 +7,38 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from stommel.errors import FileError, Problem
+from stommel.files.folder_storage import FolderStorage
+from stommel.link.files.folder_disk import FolderDisk
 from stommel.onboard.coordination.config import Configuration
-from stommel.onboard.coordination.stores.folder import FolderStorage
 
-FOLDERS = ("missions", "parameters", "log.folder")
+INBOX = "inbox"
+FOLDERS = ("missions", "parameters", "log.folder", INBOX)
 """Keys of the configuration that name one."""
+
+
+def inbox_of(configuration: Configuration) -> FolderDisk:
+    """Return the folder of received files, made if it is not there.
+
+    Raises
+    ------
+    FileError
+        It cannot be.
+    """
+    try:
+        return FolderDisk(_path(configuration, INBOX))
+    except OSError as error:
+        raise _refused(configuration, INBOX, f"cannot be used: {error.strerror or error}") from None
+
+
+def bench_storage(configuration: Configuration) -> FolderStorage:
+    """Return the folder of what the link of the bench keeps, apart from that of the radio.
+
+    Raises
+    ------
+    FileError
+        It cannot be.
+    """
+    return _storage(configuration, "parameters", "bench")
 
 
 def storage_of(configuration: Configuration, key: str) -> FolderStorage:
@@ -22,8 +49,12 @@ def storage_of(configuration: Configuration, key: str) -> FolderStorage:
     FileError
         It cannot be.
     """
+    return _storage(configuration, key)
+
+
+def _storage(configuration: Configuration, key: str, inside: str = "") -> FolderStorage:
     try:
-        return FolderStorage(_path(configuration, key))
+        return FolderStorage(_path(configuration, key) / inside)
     except OSError as error:
         raise _refused(configuration, key, f"cannot be used: {error.strerror or error}") from None
 
@@ -39,7 +70,9 @@ def claimed(configuration: Configuration) -> Iterator[None]:
     """
     by_path: dict[Path, str] = {}
     for key in FOLDERS:
-        by_path.setdefault(_path(configuration, key).resolve(), key)
+        first = by_path.setdefault(_path(configuration, key).resolve(), key)
+        if key == INBOX and first != INBOX:
+            raise _refused(configuration, key, f"is the folder of {first} too; received files need one of their own")
     with ExitStack() as held:
         for key in by_path.values():
             storage_of(configuration, key)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from stommel.errors import StommelError
 from stommel.messages.bus import CanBus
-from stommel.messages.serial_port import PortSettings, SerialPort
+from stommel.messages.serial_port import PortSettings, PortState, SerialPort
 from stommel.onboard.coordination.config import Configuration
 from stommel.onboard.coordination.own_instruments import PORTS
 
@@ -24,11 +24,13 @@ class RealPorts:
 
     bus: CanBus
     serial: Mapping[str, SerialPort]
+    bench: SerialPort | None = None
+    """Where a person at the vehicle speaks to it; None where the configuration names no port."""
 
     def close(self) -> None:
         """Give everything back."""
         self.bus.close()
-        for port in self.serial.values():
+        for port in (*self.serial.values(), *([] if self.bench is None else [self.bench])):
             port.close()
 
 
@@ -60,4 +62,17 @@ def open_ports(configuration: Configuration, origin: str) -> RealPorts:
         if bus is not None:
             bus.close()
         raise MissingPortsError(origin, problems)
-    return RealPorts(bus, serial)
+    return RealPorts(bus, serial, _bench(configuration))
+
+
+def _bench(configuration: Configuration) -> SerialPort | None:
+    """The port of the bench; at sea nobody has plugged it in, and it is tried again now and then."""
+    table = configuration.file.bench
+    if table.port is None:
+        return None
+    port = SerialPort(PortSettings("bench.port", table.port, table.baud))
+    try:
+        port.connect()
+    except StommelError as error:
+        port.state, port.reason = PortState.LOST, str(error)
+    return port

@@ -1,5 +1,6 @@
 """The coordination software on real ports: one decision a second, the ports read in between."""
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -13,13 +14,16 @@ from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook
 from stommel.onboard.coordination.situation import OperatorRequests
 from stommel.onboard.coordination.stores.continuity import ContinuityStore
-from stommel.onboard.coordination.stores.missions import MissionStore
+from stommel.onboard.coordination.stores.missions import MissionStore, MissionStoreError, StoredMission
 from stommel.onboard.running.folders import storage_of
 from stommel.onboard.running.ports import RealPorts
+from stommel.onboard.running.vehicle_links import RADIO, VehicleLinks
 from stommel.version import __version__
 
 PERIOD = 1.0
 """Between two steps of the coordinator [s]."""
+LAST_WORDS = 3.0
+"""Between a restart that the shore asked for and the end, in which the link tells it [s]."""
 READ_EVERY = 0.05
 """Between two looks at the ports [s]: the system keeps few bytes of a port that nobody reads."""
 
@@ -49,6 +53,10 @@ class Figures:
     """Steps that failed; in each the nodes heard nothing."""
     late: int = 0
     """Steps that began more than half a period late."""
+    link_failures: int = 0
+    """Looks at a link that failed; the dive went on."""
+    restart: bool = False
+    """Whether it ended because the shore asked that it starts anew."""
 
     @property
     def mean_step_ms(self) -> float:
@@ -75,6 +83,8 @@ class VehicleSoftware:
         Takes sentences for whoever watches.
     clock
         Of the computer; another one in tests.
+    supervised
+        Whether somebody starts the software again when it ends, so that the shore may ask for it.
 
     Raises
     ------
@@ -82,7 +92,15 @@ class VehicleSoftware:
         Log or stores cannot be opened.
     """
 
-    def __init__(self, configuration: Configuration, ports: RealPorts, say: Say, clock: Clock | None = None) -> None:
+    def __init__(
+        self,
+        configuration: Configuration,
+        ports: RealPorts,
+        say: Say,
+        clock: Clock | None = None,
+        *,
+        supervised: bool = False,
+    ) -> None:
         self.configuration, self.ports, self.clock = configuration, ports, clock or Clock()
         self.figures = Figures()
         self._say, self._words = say, ""
@@ -100,17 +118,37 @@ class VehicleSoftware:
         self.coordinator = Coordinator(configuration.coordinator, t, logbook=self.logbook, store=self.kept)
         for note in (*self.missions.notes, *self.kept.notes):
             self._tell(t, "store", note)
+        self._ends_at = math.inf
+        self.links = VehicleLinks(
+            configuration, self.coordinator, self.missions, lambda _: self.take_mission(self.clock.monotonic()),
+            lambda at: self.clock.utc() + at - self.clock.monotonic(), ports.serial[RADIO], ports.bench, t, self._tell,
+            self._restart if supervised else None,
+        )  # fmt: skip
+        self.links.observe(t)
 
     def take_mission(self, t: float) -> None:
         """Fly the mission that the store holds from now on."""
         mission = self.missions.active
         if mission is None:
             return
-        utc = self.clock.utc()
-        self.missions.start(utc)
-        left = float("inf") if self.missions.expires is None else self.missions.expires - utc
-        self.coordinator.adopt(mission.orders, t + left, mission.number)
+        self.coordinator.adopt(mission.orders, t + self._time_left(mission, t), mission.number)
         self._say(f"mission {mission.number}: {mission.header.mission}, for {mission.header.vehicle}")
+
+    def _time_left(self, mission: StoredMission, t: float) -> float:
+        """Until a mission expires [s]: by UTC, and never more than it was given, however the clock is set."""
+        utc, hours = self.clock.utc(), mission.header.expires_hours
+        try:
+            self.missions.start(utc)
+        except MissionStoreError as error:  # better flown than not at all: its time counts from this start
+            self._tell(t, "store", str(error))
+        if hours is None:
+            return math.inf
+        expires = self.missions.expires
+        return 3600.0 * hours if expires is None else min(expires - utc, 3600.0 * hours)
+
+    def _restart(self) -> None:
+        """End soon, so that the software is started anew."""
+        self._ends_at = min(self._ends_at, self.clock.monotonic() + LAST_WORDS)
 
     def start(self) -> None:
         """Let the mission begin as soon as the start checks have passed, as an operator asks."""
@@ -118,23 +156,27 @@ class VehicleSoftware:
 
     def run(self, seconds: float, stop: Callable[[], bool] = lambda: False) -> Figures:
         """Run for a time [s], or until told to stop; the ports stay open."""
-        began = self.clock.monotonic()
+        now = began = self.clock.monotonic()
         due, heard = began, _Heard()
-        while not stop() and (now := self.clock.monotonic()) - began < seconds:
+        while not stop() and (now := self.clock.monotonic()) - began < seconds and now < self._ends_at:
             self._listen(heard, now)
             if now >= due:
                 self.figures.late += now - due > 0.5 * PERIOD
                 due = due + PERIOD if now - due < PERIOD else now + PERIOD
                 self._step(heard, now)
                 heard = _Heard()
+                self.links.observe(now)
+            self.links.look(now)
             self.clock.sleep(max(0.0, min(READ_EVERY, due - self.clock.monotonic())))
         self.logbook.sync(self.clock.monotonic())
+        self.figures.link_failures, self.figures.restart = self.links.failures, now >= self._ends_at
         return self.figures
 
     def _listen(self, heard: _Heard, t: float) -> None:
         heard.frames += self.ports.bus.receive()
         for name, port in self.ports.serial.items():
-            heard.bytes[name] = heard.bytes.get(name, b"") + port.read(t)
+            if name != RADIO:
+                heard.bytes[name] = heard.bytes.get(name, b"") + port.read(t)
         for words in self.ports.bus.reports():
             self._tell(t, "can", words)
 
@@ -150,7 +192,8 @@ class VehicleSoftware:
         for frame in frames:
             self.ports.bus.send(frame)
         for name, data in to_ports.items():
-            self.ports.serial[name].write(data, t)
+            if name != RADIO:
+                self.ports.serial[name].write(data, t)
         figures = self.figures
         took = self.clock.monotonic() - t
         figures.decisions += 1

@@ -5,7 +5,7 @@ from math import copysign, inf, log
 import numpy as np
 
 from stommel.sitl.faults.fault import Fault
-from stommel.sitl.faults.table import KINDS, SENSORS, FaultKind
+from stommel.sitl.faults.table import DRAWN, SENSORS, FaultKind
 
 MOST = 4
 """Faults of a flight."""
@@ -15,7 +15,7 @@ _WIDE = 10.0
 """Values that differ by more than this factor are drawn by their magnitude."""
 
 
-def draw_faults(seed: int, latest: float, kinds: tuple[FaultKind, ...] = KINDS) -> tuple[Fault, ...]:
+def draw_faults(seed: int, latest: float, kinds: tuple[FaultKind, ...] = DRAWN) -> tuple[Fault, ...]:
     """Draw one to four faults that begin before a time [s]."""
     draw = np.random.default_rng((seed, 2))
     return tuple(_fault(draw, latest, kinds) for _ in range(int(draw.integers(1, MOST, endpoint=True))))

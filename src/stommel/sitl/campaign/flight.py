@@ -9,6 +9,7 @@ from math import inf, sin
 import numpy as np
 
 from stommel.errors import StommelError
+from stommel.link.channel.settings import ChannelSettings
 from stommel.messages.database import COORDINATOR
 from stommel.onboard.coordination.engine_proof import STROKES
 from stommel.simulation.scenario.mission import Mission
@@ -43,6 +44,7 @@ class FaultFlight:
 
     mission: Mission
     faults: tuple[Fault, ...]
+    radio: ChannelSettings = field(default_factory=ChannelSettings)
     disk: MemoryDisk = field(default_factory=MemoryDisk)
     escaped: str = ""
     """Exception that no one caught, in words."""
@@ -52,7 +54,7 @@ class FaultFlight:
         self.inject = Injector(self.faults, scenario.seed, self.disk)
         seconds = scenario.duration_days * 86400.0
         self.expires = seconds - EXPIRY_BEFORE_END if seconds > 2.0 * EXPIRY_BEFORE_END else inf
-        self.system = System(self.mission, inject=self.inject, expires=self.expires)
+        self.system = System(self.mission, inject=self.inject, expires=self.expires, radio=self.radio)
         self.watch = Watch(self.system)
         self.struck: list[Struck] = []
         self._sinks = 0.0
@@ -150,9 +152,9 @@ def with_seed(mission: Mission, seed: int) -> Mission:
     return replace(mission, scenario=scenario, document=dict(mission.document) | {"seed": seed})
 
 
-def fly_with(mission: Mission, faults: Sequence[Fault]) -> Verdict:
-    """Fly a mission with faults to its end."""
-    return FaultFlight(mission, tuple(faults)).fly()
+def fly_with(mission: Mission, faults: Sequence[Fault], radio: ChannelSettings | None = None) -> Verdict:
+    """Fly a mission with faults to its end, through the air of a calm day or another."""
+    return FaultFlight(mission, tuple(faults), ChannelSettings() if radio is None else radio).fly()
 
 
 def _told(error: Exception) -> str:

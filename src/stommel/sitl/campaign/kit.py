@@ -8,6 +8,7 @@ from typing import Any
 
 import stommel
 from stommel.errors import StommelError
+from stommel.link.channel.settings import ChannelSettings
 from stommel.simulation.scenario.loading import mission_from
 from stommel.simulation.scenario.mission import Mission
 from stommel.sitl.campaign.draw import draw_faults
@@ -15,9 +16,13 @@ from stommel.sitl.campaign.flight import EXPIRY_BEFORE_END, fly_with, with_seed
 from stommel.sitl.campaign.shrink import fewest
 from stommel.sitl.campaign.verdict import FAILED
 from stommel.sitl.faults.fault import Fault, faults_from
+from stommel.sitl.radio.radio_table import channel_from
 
 _LATEST = 300.0
 """How long before the end of the mission's time the last fault begins [s]."""
+
+RADIO = "radio"
+"""Table of a scenario that a mission file has not."""
 
 _missions: dict[str, Mission] = {}
 """The mission of this process, by its document and folder."""
@@ -28,7 +33,7 @@ class CampaignKit:
     """A campaign's mission and what breaks in all of its flights."""
 
     document: Mapping[str, Any] = field(repr=False)
-    """Of the mission file, without its faults."""
+    """Of the scenario file, without its faults."""
     faults: tuple[Fault, ...]
     """Of the scenario file: in each flight, beside the random ones."""
     folder: Path
@@ -44,8 +49,14 @@ class CampaignKit:
         key = json.dumps([self.document, str(self.folder)], sort_keys=True, default=str)
         if key not in _missions:
             _missions.clear()
-            _missions[key] = mission_from(self.document, self.origin, self.folder)
+            document = {name: value for name, value in self.document.items() if name != RADIO}
+            _missions[key] = mission_from(document, self.origin, self.folder)
         return _missions[key]
+
+    @property
+    def radio(self) -> ChannelSettings:
+        """The air of the radio."""
+        return channel_from(self.document.get(RADIO, {}), self.origin)
 
     def faults_of(self, seed: int) -> tuple[Fault, ...]:
         """Faults of the flight with this seed."""
@@ -62,13 +73,13 @@ def fly_seed(kit: CampaignKit, run: int, values: Sequence[Any]) -> dict[str, Any
         raise StommelError(f"a worker has stommel {stommel.__version__}, the campaign is of version {kit.version}")
     seed = int(values[0])
     mission, faults = with_seed(kit.mission, seed), kit.faults_of(seed)
-    found = fly_with(mission, faults)
+    found = fly_with(mission, faults, kit.radio)
     record: dict[str, Any] = {
         "run": run, "seed": seed, "verdict": found.verdict, "why": found.why, "ending": found.ending,
         "faults": [fault.as_table() for fault in faults],
     }  # fmt: skip
     if found.verdict == FAILED:
-        least = fewest(faults, lambda chosen: fly_with(mission, chosen).verdict == FAILED)
+        least = fewest(faults, lambda chosen: fly_with(mission, chosen, kit.radio).verdict == FAILED)
         record["fewest"] = [fault.as_table() for fault in least]
     return record
 

@@ -41,6 +41,6 @@ def replay(scenario: Path, seed: int | None = None) -> Replay:
     kit = load_kit(scenario)
     mission = kit.mission
     faults = kit.faults if seed is None else kit.faults_of(seed)
-    flown = FaultFlight(mission if seed is None else with_seed(mission, seed), faults)
+    flown = FaultFlight(mission if seed is None else with_seed(mission, seed), faults, kit.radio)
     verdict = flown.fly()
     return Replay(flown.mission.scenario.seed, faults, verdict, flown.digest())

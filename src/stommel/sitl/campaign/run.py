@@ -13,10 +13,10 @@ import stommel
 from stommel.files.toml_reader import read_toml
 from stommel.files.units import counted
 from stommel.files.whole import write_whole
-from stommel.simulation.scenario.loading import mission_from
 from stommel.sitl.campaign.kit import CampaignKit, faults_in, fly_seed
 from stommel.sitl.campaign.verdict import FAILED, PASSED, UNSURVIVABLE
-from stommel.sitl.faults.fault import Fault, faults_from, refuse_late
+from stommel.sitl.faults.fault import Fault
+from stommel.sitl.scenario import load_scenario
 from stommel.studies.errors import StudyError, StudyInterruptedError
 from stommel.studies.journal import Journal
 from stommel.studies.run import Progress, interruptible, silent
@@ -79,11 +79,9 @@ def load_kit(scenario: Path) -> CampaignKit:
     FileError
         The file cannot be read, or something in it is impossible.
     """
-    document = read_toml(scenario)
-    faults = faults_from(document.pop("faults", []), str(scenario))
-    mission = mission_from(document, str(scenario), scenario.parent)
-    refuse_late(faults, 86400.0 * mission.scenario.duration_days, str(scenario))
-    return CampaignKit(document, faults, scenario.parent.resolve(), str(scenario), stommel.__version__)
+    found = load_scenario(scenario)
+    document = {name: value for name, value in read_toml(scenario).items() if name != "faults"}
+    return CampaignKit(document, found.faults, scenario.parent.resolve(), str(scenario), stommel.__version__)
 
 
 def run_campaign(

@@ -115,6 +115,14 @@ class Injector:
         """Return the bytes of an instrument that arrive."""
         return bytes_with(self.acting, port, data) if self.acting else data
 
+    def radio_works(self) -> bool:
+        """Whether the vehicle's radio is not dead."""
+        return not any(one.kind == "radio_dead" for one in self.acting)
+
+    def radio_loss(self) -> float:
+        """Least share of the radio's packets that are lost."""
+        return max((one.value for one in self.acting if one.kind == "radio_packets_lost"), default=0.0)
+
     def clock(self, t: float) -> float:
         """Time by the coordinator's clock [s]."""
         return t + sum(one.value for one in self.acting if one.kind == "clock_jump") if self.acting else t

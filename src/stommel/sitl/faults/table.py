@@ -2,8 +2,8 @@
 
 from typing import NamedTuple
 
-BUS, SENSOR, SERIAL, MACHINERY, SUPPLY, SOFTWARE, HULL = (
-    "CAN bus", "sensor", "serial port", "machinery", "supply", "software", "hull",
+BUS, SENSOR, SERIAL, MACHINERY, SUPPLY, SOFTWARE, HULL, RADIO = (
+    "CAN bus", "sensor", "serial port", "machinery", "supply", "software", "hull", "radio",
 )  # fmt: skip
 """Where a fault acts."""
 
@@ -59,7 +59,7 @@ class FaultKind(NamedTuple):
 
     name: str
     where: str
-    """`BUS` to `HULL`."""
+    """`BUS` to `RADIO`."""
     targets: tuple[str, ...]
     """What of it can be broken; empty: there is only one."""
     unit: str
@@ -71,7 +71,7 @@ class FaultKind(NamedTuple):
     default: float
     """Value of a fault whose file gives none; not used by kinds without a value, whose `low` is `high`."""
     drawn: tuple[float, float]
-    """Values that a campaign draws."""
+    """Values that a campaign draws; of kinds that are none of `DRAWN`, values that are worth a trial."""
     survivable: bool
     """Whether a vehicle without a drop weight is sure to come up when nothing else is broken, with any drawn value."""
     words: str
@@ -151,8 +151,16 @@ KINDS = (
         "the mission's time is over as the fault begins"),
     FaultKind("hull_leak", HULL, (), "ml/min", 0.0, 1e5, 20.0, (0.5, 200.0), False,
         "water runs into the hull"),
+    FaultKind("radio_dead", RADIO, (), "", *_NONE, True,
+        "the radio neither sends nor hears"),
+    FaultKind("radio_packets_lost", RADIO, (), "", *_SHARE, 0.5, (0.1, 0.9), True,
+        "at least this share of the radio's packets is lost, each way"),
 )  # fmt: skip
 """Every kind of fault."""
+
+DRAWN = tuple(kind for kind in KINDS if kind.where != RADIO)
+"""Kinds that a campaign draws from. Nobody is ashore in a campaign, so that the radio breaks nothing there; and with
+more kinds the seeds of all campaigns so far would mean other faults."""
 
 BY_NAME = {kind.name: kind for kind in KINDS}
 

@@ -50,6 +50,10 @@ class Air:
     def _is_linked(self, t: float) -> bool:
         return self.on and self.antenna.emerges(t)
 
+    def worsen(self, loss: float) -> None:
+        """Let at least this share of all packets be lost from here on."""
+        self.channel.least_loss = loss
+
     def pass_time(self, vehicle: End | None, t: float, step: float, offset: float, *, on: bool) -> None:
         """Let a step pass in which both ends speak.
 

@@ -1,6 +1,7 @@
 """The file of a vehicle's configuration, and what its tables must be to each other."""
 
 from collections.abc import Iterator
+from pathlib import PureWindowsPath
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -10,6 +11,7 @@ from stommel.files.fields import Name, Table
 from stommel.files.kinds import Format
 from stommel.onboard.coordination.config.by_phase import Interval
 from stommel.onboard.coordination.config.tables import (
+    BenchPort,
     CanPort,
     CompassPort,
     FolderName,
@@ -24,7 +26,7 @@ from stommel.onboard.coordination.config.tables import (
 )
 from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits
 
-_PORTS = ("compass", "gnss", "radio")
+_PORTS = ("compass", "gnss", "radio", "bench")
 _PASCAL_PER_METRE = 1e4
 """Pressure of water per depth, as a floor: that of the sea is 1.01e4."""
 _FASTEST_RISE = 1.0
@@ -56,6 +58,8 @@ class ConfigurationFile(Table):
     """Folder of the missions that were received, beside this file."""
     parameters: FolderName = "parameters"
     """Folder of the parameters and of what must outlive a restart."""
+    inbox: FolderName = "inbox"
+    """Folder of the files that were received, for nothing else: who commands by radio may write there."""
     sample_every_s: Interval = 10.0
     """Between two samples of the CTD, which is on the acquisition node; `power.sample_every_s` has other times."""
     limits: VehicleLimits
@@ -64,6 +68,7 @@ class ConfigurationFile(Table):
     compass: CompassPort
     gnss: GnssPort
     radio: RadioPort
+    bench: BenchPort = BenchPort()
     safety: Safety
     log: Log = Log()
     power: Power = Power()
@@ -75,6 +80,7 @@ class ConfigurationFile(Table):
         checks = (
             _of_actuators,
             _of_ports,
+            _of_inbox,
             _of_lines,
             _of_depth_and_time,
             _of_pressures,
@@ -110,13 +116,31 @@ def _of_actuators(file: ConfigurationFile) -> Iterator[str]:
 
 def _of_ports(file: ConfigurationFile) -> Iterator[str]:
     """A port of its own for each."""
-    ports = {f"{table}.port": str(getattr(file, table).port) for table in _PORTS}
+    ports = {f"{table}.port": str(port) for table in _PORTS if (port := getattr(file, table).port) is not None}
     if file.can.interface == "slcan" and file.can.channel:
         ports["can.channel"] = file.can.channel
     for key, port in ports.items():
         others = [other for other in ports if other != key and ports[other] == port]
         if others:
             yield f"{key} = {port!r}: is that of {others[0].partition('.')[0]} too; each needs a port of its own"
+            return
+
+
+def _of_inbox(file: ConfigurationFile) -> Iterator[str]:
+    """Nothing of the software's own where a shore may write."""
+    inbox = PureWindowsPath(file.inbox)
+    calibration = file.compass.calibration
+    taken = {
+        "this file": PureWindowsPath(),
+        "missions": PureWindowsPath(file.missions),
+        "parameters": PureWindowsPath(file.parameters),
+        "log.folder": PureWindowsPath(file.log.folder),
+        "radio.key": PureWindowsPath(file.radio.key).parent,
+        "compass.calibration": PureWindowsPath(calibration or "").parent,
+    }
+    for key, folder in taken.items():
+        if folder == inbox:
+            yield f"inbox = {file.inbox!r}: {key} is there; received files need a folder of their own"
             return
 
 

@@ -100,11 +100,27 @@ class GnssPort(Table):
 
 
 class RadioPort(Table):
-    """The radio."""
+    """The radio, and who is believed over it."""
 
     port: PortName
     """Serial port, as the operating system names it."""
     baud: Baud = 57_600
+    """Bits per second."""
+    key: FileName = "radio.key"
+    """File of the vehicle's key (`stommel link key new`), beside this one; only its owner may read it. Without a sound
+    one nothing is believed but on the bench."""
+    unsigned: Flag = False
+    """Whether whoever is heard may command, without a key: for trials. The shore is told."""
+    half_duplex: Flag = True
+    """Whether the radios take turns."""
+
+
+class BenchPort(Table):
+    """A serial port at which a person is who may open the hull: whoever speaks there is believed, key or not."""
+
+    port: PortName | None = None
+    """As the operating system names it; it need not be there."""
+    baud: Baud = 115_200
     """Bits per second."""
 
 

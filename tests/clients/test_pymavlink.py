@@ -26,8 +26,8 @@ os.environ.setdefault("MAVLINK20", "1")
 from pymavlink import mavutil
 from pymavlink.dialects.v20 import common
 
-PATIENCE = 40.0
-"""For anything that is asked for, and for the vehicle to begin [s]."""
+PATIENCE = 240.0
+"""For anything that is asked for, and for the vehicle to begin [s]: a process without machine code compiles a minute."""
 
 
 @contextmanager

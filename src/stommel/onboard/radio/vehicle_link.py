@@ -129,8 +129,10 @@ class VehicleLink:
         ]
 
     def observe(self, t: float) -> None:
-        """Look at what the coordinator has decided at a time [s]; it learns how the key is."""
+        """Look at what the coordinator has decided at a time [s], once for each decision; it learns how the key is."""
         self._coordinator.key_alarm = self.guard.alarm
+        if self._seen is not None and self._coordinator.view is self._seen.view:
+            return  # the coordinator sleeps: what it said then is not said again, nor dated anew
         seen = observe(self._coordinator, self._utc(t))
         if seen is not None:
             self._seen = seen

@@ -73,10 +73,10 @@ def upload(
     Example: stommel link mission upload orders.toml --to tcp:127.0.0.1:5760 --key zju-1.key
     """
     from stommel.control.orders_file import parse_orders
-    from stommel.files.opening import TOML_MIB, read_bytes, read_text
+    from stommel.files.opening import TOML_MIB, read_bytes, text_of
 
-    parse_orders(read_text(orders, TOML_MIB), str(orders))  # what is no orders file need not go to sea
     content = read_bytes(orders, TOML_MIB)
+    parse_orders(text_of(content, orders), str(orders))  # what is no orders file need not go to sea
     with line_to(to, key, unsigned, vehicle, state) as line:
         line.require_vehicle(within)
         client = line.end.orders
@@ -118,8 +118,12 @@ def download(
     refuse_existing(output, force)
     with line_to(to, key, unsigned, vehicle, state) as line:
         line.require_vehicle(within)
-        fetched(line, "missions/active.orders", output, within)
+        row = fetched(line, "missions/active.orders", output, within)
         held = _held(line, within)
+    if row["name"] != output.name:
+        output.with_name(row["name"]).replace(output)  # --force: other orders stood there
+    if row["sha256"] != held.sha256.hex():
+        raise LinkError(f"{output}: has the orders of before; the vehicle holds others meanwhile: {held.name}")
     finish(_row(held), [output], as_json, _show)
 
 

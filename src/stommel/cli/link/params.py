@@ -79,7 +79,8 @@ def _row(line: "Line") -> dict[str, Any]:
                 "parameters": [_parameter(known, k) for k in range(len(known.descriptions))],
             }
             for known in client.known.sets.values()
-        ]
+        ],
+        "notes": client.known.notes,
     }
 
 
@@ -101,6 +102,7 @@ def _show(row: dict[str, Any]) -> None:
         title = f"{component['name']} (component {component['component']})"
         notes = [] if component["whole"] else [f"not up to date: {component['reason'] or component['state']}"]
         show_table(title, ("name", "value", "unit", "range", "meaning"), rows, notes)
+    show_notes(row["notes"], "note")
 
 
 @params_app.command("get")
@@ -161,7 +163,8 @@ def _found(line: "Line", name: str) -> tuple[int, str]:
     if fits:
         told = " or ".join(f"{component}:{one}" for component, one in fits)
         raise LinkError(f"{name}: is a parameter of several components; say {told}")
-    raise LinkError(f"{name}: is no parameter of the vehicle{did_you_mean(parameter, [one for _, one in known])}")
+    near = did_you_mean(parameter, [one for _, one in known])
+    raise LinkError(f"{name}: is no parameter of the vehicle{near} `stommel link params list` shows them")
 
 
 def _single(line: "Line", ticket: int, within: float) -> dict[str, Any]:

@@ -173,3 +173,43 @@ def test_a_folder_is_listed(loss: float) -> None:
     pair.ask(none)
     assert pair.run(is_over((none,)), 100.0)
     assert (none.state, none.reason) == (State.REFUSED, "/none: file not found")
+
+
+def test_a_file_that_was_removed_aboard_is_sent_again() -> None:
+    """That it came once does not make it be there; what was refused may be taken when there is room."""
+    files, pair = MemoryFiles(), Pair(CLEAN)
+    pair.serve(FileServer(*VEHICLE, files))
+    for change in (lambda: None, lambda: files.remove(("missions", "m"))):
+        change()
+        upload = Upload(SHORE, VEHICLE, DATA, "missions/m")
+        pair.ask(upload)
+        assert pair.run(is_over((upload,)), 30.0)
+        assert upload.state is State.WHOLE
+        assert files["missions/m"] == DATA
+
+
+def test_an_upload_that_was_refused_may_be_taken_later() -> None:
+    files, pair = MemoryFiles(), Pair(CLEAN)
+    files.refuse_received = "mission: waypoint 3 lies on land"
+    pair.serve(FileServer(*VEHICLE, files))
+    for refused, state in ((files.refuse_received, State.REFUSED), (None, State.WHOLE)):
+        files.refuse_received = refused
+        upload = Upload(SHORE, VEHICLE, DATA, "missions/m")
+        pair.ask(upload)
+        assert pair.run(is_over((upload,)), 60.0)
+        assert upload.state is state
+        pair.ask()
+        pair.wait(25.0)
+
+
+def test_a_folder_is_listed_as_it_is_now() -> None:
+    """The answer to the same question of before is none, nor one to a question for another folder."""
+    files, pair = MemoryFiles(), Pair(CLEAN)
+    pair.serve(FileServer(*VEHICLE, files))
+    for names in ([], ["m"]):
+        for name in names:
+            files.files["missions", name] = b"1234"
+        listing = Listing(SHORE, VEHICLE, "/missions")
+        pair.ask(listing)
+        assert pair.run(is_over((listing,)), 30.0)
+        assert [entry.name for entry in listing.entries] == names

@@ -6,6 +6,7 @@ import random
 import pytest
 
 from stommel.link.channel.settings import ChannelSettings
+from stommel.link.files.download import Download
 from stommel.link.files.listing import Listing
 from stommel.link.files.loss import MOST_SEGMENT
 from stommel.link.files.progress import State
@@ -15,7 +16,8 @@ from stommel.link.files.server import FileServer
 from stommel.link.files.upload import Upload
 from stommel.link.outbox import Outbox
 from stommel.link.service import Received
-from tests.link.files.fakes import MemoryFiles, noise
+from stommel.link.traffic import Traffic
+from tests.link.files.fakes import MemoryDisk, MemoryFiles, noise
 from tests.link.files.pair import SHORE, VEHICLE, Pair, is_over
 
 DATA = noise(20_000, 31)
@@ -213,3 +215,22 @@ def test_a_folder_is_listed_as_it_is_now() -> None:
         pair.ask(listing)
         assert pair.run(is_over((listing,)), 30.0)
         assert [entry.name for entry in listing.entries] == names
+
+
+@pytest.mark.parametrize("loss", [0.0, 0.3])
+def test_both_ends_count_what_was_of_use_and_what_was_sent_again(loss: float) -> None:
+    """Oracle: the sizes of the files; without loss nothing is sent again."""
+    files, pair = MemoryFiles({"logs/a.log": DATA}), Pair(ChannelSettings(loss=loss, whole_frames=True))
+    aboard, ashore, disk = Traffic(), Traffic(), MemoryDisk()
+    pair.serve(FileServer(*VEHICLE, files, aboard))
+    transfers = (
+        Download(SHORE, VEHICLE, "logs/a.log", disk, "a.log", traffic=ashore),
+        Upload(SHORE, VEHICLE, DATA[:5000], "missions/m", traffic=ashore),
+    )
+    pair.ask(*transfers)
+    assert pair.run(is_over(transfers), 60.0)
+    assert (ashore.new_bytes, aboard.new_bytes) == (len(DATA), 5000)
+    assert (aboard.sent_bytes - aboard.again_bytes, ashore.sent_bytes - ashore.again_bytes) == (len(DATA), 5000)
+    assert (aboard.retransmit_ratio > 0.1) is (loss > 0.0)
+    assert loss > 0.0 or aboard.again_bytes == ashore.again_bytes == 0
+    assert ashore.goodput(pair.t) > 0.0

@@ -260,3 +260,6 @@ def test_a_file_comes_home_and_another_goes_out(tmp_path: Path) -> None:
     assert (tmp_path / "home" / "active.orders").read_bytes() == orders(tmp_path)
     assert upload.state.is_over
     assert (tmp_path / "inbox" / "note.txt").read_bytes() == b"look at the compass"
+    ashore, aboard = shore.end.statistics.traffic, rig.vehicle.links.radio.link.statistics.traffic
+    assert (ashore.new_bytes, aboard.new_bytes) == (len(orders(tmp_path)), len(b"look at the compass"))
+    assert aboard.sent_bytes - aboard.again_bytes == ashore.new_bytes

@@ -9,6 +9,7 @@ from stommel.link.files.port import FilePort, FileRefusalError, FileResult, Part
 from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox
 from stommel.link.service import Received
+from stommel.link.traffic import Traffic
 
 MOST_INCOMING = 4
 FORGOTTEN = 900.0
@@ -49,8 +50,8 @@ class _Incoming:
 class Receiving:
     """Offers of other ends, and what has come of them."""
 
-    def __init__(self, port: FilePort) -> None:
-        self._port = port
+    def __init__(self, port: FilePort, traffic: Traffic | None = None) -> None:
+        self._port, self._traffic = port, traffic
         self._incoming: dict[Key, _Incoming] = {}
         self._ended: dict[Key, _Ended] = {}
         self._said_unknown = float("-inf")
@@ -92,7 +93,7 @@ class Receiving:
         except StommelError as error:
             self._end(key, offer, _refusal(error), t)
             return
-        self._incoming[key] = _Incoming(offer, part, Fetch(*key, part.missing, part), t)
+        self._incoming[key] = _Incoming(offer, part, Fetch(*key, part.missing, part, traffic=self._traffic), t)
 
     def data(self, received: Received, t: float) -> None:
         """Take FILE_DATA."""

@@ -12,6 +12,7 @@ from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
 from stommel.link.traffic import Traffic
+from stommel.link.words import fitted
 from stommel.messages.mavlink import FieldValue
 
 MOST_REASON = 100
@@ -120,7 +121,7 @@ class FileServer:
         system, component = peer
         address: dict[str, FieldValue] = {
             "target_system": system, "target_component": component, "transfer": transfer,
-            "reason": reason.encode()[:MOST_REASON].decode("utf-8", "ignore"),
+            "reason": fitted(reason, MOST_REASON),
         }  # fmt: skip
         self._answers.append((name, address | values))
 

@@ -8,7 +8,7 @@ from stommel.link.files.progress import Progress, State
 from stommel.link.files.received_file import (
     Identity,
     ReceivedFile,
-    ReceptionError,
+    ReceivedFileError,
     WrongSumError,
     identity_on_disk,
 )
@@ -72,7 +72,7 @@ class Download:
                 self._open(self._wanted)
             else:
                 self._wanted = None
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             self._end(State.FAILED, str(error))
 
     def _open(self, identity: Identity) -> None:
@@ -128,7 +128,7 @@ class Download:
             elif received.name == "FILE_DATA" and self._fetch is not None and self.file is not None:
                 self._asking.goes_on(t)
                 self._fetch.take(received, t)
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             self._end(State.FAILED, str(error))
 
     def _identified(self, received: Received, t: float) -> None:
@@ -190,7 +190,7 @@ class Download:
                 self._fetch.poll(t, outbox)
             elif self._asking.is_due(t) and outbox.room(Priority.COMMAND) >= _ROOM:
                 self._ask_which(t, outbox)
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             self._end(State.FAILED, str(error))
 
     def _ask_which(self, t: float, outbox: Outbox) -> None:
@@ -232,5 +232,5 @@ class Download:
         if self.file is not None:
             try:
                 self.file.close()
-            except ReceptionError as error:
+            except ReceivedFileError as error:
                 self.reason = reason if reason == str(error) else f"{reason}; {error}"

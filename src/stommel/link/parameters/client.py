@@ -6,7 +6,7 @@ from typing import NamedTuple
 from stommel.link.endings import Ending, Progress, progress
 from stommel.link.once import SESSIONS
 from stommel.link.outbox import Outbox, Priority
-from stommel.link.parameters.encoding import LONGEST_ID, ParameterError, fitting, value_of
+from stommel.link.parameters.encoding import LONGEST_ID, ParameterValueError, fitting, value_of
 from stommel.link.parameters.known import KnownParameters
 from stommel.link.parameters.port import Value
 from stommel.link.parameters.refreshing import Refreshing
@@ -90,14 +90,14 @@ class ParameterClient:
 
         Raises
         ------
-        ParameterError
+        ParameterValueError
             It is known that there is no such parameter, or that it cannot have the value.
         """
         known = self.known.sets.get(component)
         if known is not None:
             number = known.number(parameter)
             if number is None:
-                raise ParameterError(f"{parameter}: the {known.name} has no such parameter")
+                raise ParameterValueError(f"{parameter}: the {known.name} has no such parameter")
             value = fitting(known.descriptions[number], value)
         ticket = self._single.write(component, parameter[:LONGEST_ID], float(value), within)
         self._writes.add(ticket)

@@ -7,7 +7,7 @@ from stommel.files.storage import Storage, replace_whole
 from stommel.link.parameters.encoding import (
     LEAST_INT,
     MOST_INT,
-    ParameterError,
+    ParameterValueError,
     check_description,
     descriptions_digest,
     held,
@@ -45,7 +45,7 @@ class KnownSet(NamedTuple):
             return self
         try:
             new = held(self.descriptions[number].kind, value)
-        except ParameterError:
+        except ParameterValueError:
             return self
         return self._replace(values=(*self.values[:number], new, *self.values[number + 1 :]))
 
@@ -77,7 +77,7 @@ class KnownParameters:
                 self.sets = _sets_of(json.loads(self._storage.read(self._name)))
         except OSError as error:
             self.notes.append(f"{self._name}: cannot be read: {error.strerror or error}")
-        except (ValueError, KeyError, TypeError, AttributeError, ParameterError, RecursionError):
+        except (ValueError, KeyError, TypeError, AttributeError, ParameterValueError, RecursionError):
             self.notes.append(f"{self._name}: is damaged; parameters are asked for anew")
 
     def keep(self) -> None:
@@ -125,14 +125,14 @@ def description_of(values: Any, component: str) -> Description:
 
     Raises
     ------
-    ParameterError
+    ParameterValueError
         It contradicts itself.
     """
     told = {"id": values["param_id"], "kind": values["param_type"], "default": values["default_value"]}
     try:
         return _description({**values, **told}, component)
     except ValueError as error:
-        raise ParameterError(f"parameters of {component}: {error}") from None
+        raise ParameterValueError(f"parameters of {component}: {error}") from None
 
 
 def _number(kind: ParameterKind, value: float) -> Value:
@@ -140,5 +140,5 @@ def _number(kind: ParameterKind, value: float) -> Value:
     if kind is ParameterKind.FLOAT32:
         return float(value)
     if not LEAST_INT <= value <= MOST_INT:
-        raise ParameterError(f"{value}: must be between {LEAST_INT} and {MOST_INT}")
+        raise ParameterValueError(f"{value}: must be between {LEAST_INT} and {MOST_INT}")
     return int(value)

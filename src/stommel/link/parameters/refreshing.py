@@ -3,7 +3,7 @@
 from stommel.link.endings import Ending
 from stommel.link.gathering import Gathering
 from stommel.link.outbox import Outbox, Priority
-from stommel.link.parameters.encoding import ParameterError, value_of
+from stommel.link.parameters.encoding import ParameterValueError, value_of
 from stommel.link.parameters.known import KnownSet, description_of
 from stommel.link.parameters.port import Description, ParameterState, Value
 from stommel.link.question import Pace
@@ -105,7 +105,7 @@ class Refreshing:
             return False
         try:
             self._descriptions[number] = description_of(values, self.name)
-        except ParameterError as error:
+        except ParameterValueError as error:
             self._end(Ending.FAILED, str(error))
             return False
         described.take(number, t)

@@ -10,7 +10,7 @@ from stommel.link.outbox import Outbox, Priority
 from stommel.link.parameters.encoding import (
     LONGEST_ID,
     LONGEST_WORDS,
-    ParameterError,
+    ParameterValueError,
     check_sets,
     description_fields,
     descriptions_digest,
@@ -69,7 +69,7 @@ class ParameterServer:
 
     Raises
     ------
-    ParameterError
+    ParameterValueError
         The port describes a parameter that cannot be said.
     """
 
@@ -153,7 +153,7 @@ class ParameterServer:
         values = received.values
         try:
             value = value_of(int(values["param_type"]), float(values["param_value"]))  # type: ignore[arg-type]
-        except ParameterError as error:
+        except ParameterValueError as error:
             self._refuse(_asked(received, 0, 0, 0.0), error)
             return
         self._begin(received, _asked(received, 0, 0, value))
@@ -174,12 +174,12 @@ class ParameterServer:
         each, number = next((found for found in sets if found[1] is not None), (None, None))
         if each is None or number is None:
             words = f"{asked.parameter}: there is no such parameter"
-            self._refuse(asked, ParameterError(words, WriteError.DOES_NOT_EXIST))
+            self._refuse(asked, ParameterValueError(words, WriteError.DOES_NOT_EXIST))
             return
         asked = asked._replace(component=each.component)
         try:
             asked = asked._replace(value=self._acceptable(each, number, asked.value))
-        except ParameterError as error:
+        except ParameterValueError as error:
             self._refuse(asked, error)
             return
         if asked not in self._writes.values():
@@ -189,12 +189,12 @@ class ParameterServer:
         """Return a value as the port takes it."""
         described = each.descriptions[number]
         if each.is_silent:
-            raise ParameterError(f"{described.id}: the {each.name} is silent", WriteError.SILENT)
+            raise ParameterValueError(f"{described.id}: the {each.name} is silent", WriteError.SILENT)
         if len(self._writes) >= _MOST_WRITES:
-            raise ParameterError(f"{described.id}: {_MOST_WRITES} writings are under way", WriteError.DENIED)
+            raise ParameterValueError(f"{described.id}: {_MOST_WRITES} writings are under way", WriteError.DENIED)
         return fitting(described, value)
 
-    def _refuse(self, asked: _Asked, error: ParameterError) -> None:
+    def _refuse(self, asked: _Asked, error: ParameterValueError) -> None:
         each, number = self._found(asked)
         value = None if each is None or number is None or each.is_silent else each.values[number]
         self._ended(asked, WriteOutcome(0, error.error, value, str(error)))

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeVar
 
 from stommel.link.files.disk import Disk
 from stommel.link.files.port import Entry, FileRefusalError, FtpError, Path
-from stommel.link.files.received_file import Identity, ReceivedFile, ReceptionError
+from stommel.link.files.received_file import Identity, ReceivedFile, ReceivedFileError
 from stommel.onboard.coordination.logbook.file_names import log_name
 from stommel.onboard.coordination.logbook.logbook import Logbook
 
@@ -124,7 +124,7 @@ class VehicleFiles:
             raise self._full(self._room(name), size)
         try:
             return InboxPart(self._inbox, name, Identity("/".join(path), size, sha256.hex()))
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             raise FileRefusalError(FtpError.FAIL_ERRNO, str(error)) from error
 
     def release(self, path: Path) -> None:
@@ -242,14 +242,14 @@ class InboxPart(ReceivedFile):
         """Keep received bytes."""
         try:
             super().write(offset, data, t)
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             raise FileRefusalError(FtpError.FAIL_ERRNO, str(error)) from error
 
     def finish(self) -> str:
         """Let the file stand under its name."""
         try:
             return super().finish()
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             raise FileRefusalError(FtpError.FAIL, str(error)) from error
 
 

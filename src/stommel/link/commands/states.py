@@ -131,8 +131,3 @@ def _whole(values: Mapping[str, FieldValue], name: str) -> int:
     value = values[name]
     assert isinstance(value, int)
     return value
-
-
-def short(words: str) -> str:
-    """Words as they fit into an answer."""
-    return words.encode()[:MOST_WORDS].decode("utf-8", "ignore")

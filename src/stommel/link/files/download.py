@@ -18,6 +18,7 @@ from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
 from stommel.link.timing import RetransmissionTimer
+from stommel.link.traffic import Traffic
 
 ALL = 0xFFFFFFFF
 _MOST_STARTS = 2
@@ -40,6 +41,8 @@ class Download:
         Time without an answer after which it has failed [s], not counting pauses; None: never.
     timer
         What is known of the round trip already.
+    traffic
+        Counts of this end; None: nobody asks.
     """
 
     def __init__(
@@ -52,10 +55,11 @@ class Download:
         *,
         patience: float | None = PATIENCE,
         timer: RetransmissionTimer | None = None,
+        traffic: Traffic | None = None,
     ) -> None:
         self._own, self._peer, self.path, self._disk, self._name = own, peer, path, disk, name
         self.transfer = transfer_number("download", own, path)
-        self._asking = Asking(timer, patience)
+        self._asking, self._traffic = Asking(timer, patience), traffic
         self._fetch: Fetch | None = None
         self.file: ReceivedFile | None = None
         self.state, self.reason = State.IDENTIFYING, ""
@@ -79,7 +83,7 @@ class Download:
         """Go on with what is on the disk if it is of this file, or begin; segments may still be on their way."""
         self.file = ReceivedFile(self._disk, self._name, identity)
         timer = self._asking.timer
-        self._fetch = Fetch(self._peer, self.transfer, self.file.missing, self.file, timer, self._fetch)
+        self._fetch = Fetch(self._peer, self.transfer, self.file.missing, self.file, timer, self._fetch, self._traffic)
 
     # what others ask
 

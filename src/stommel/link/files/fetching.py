@@ -12,6 +12,7 @@ from stommel.link.files.values import octets, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received
 from stommel.link.timing import FIRST, RetransmissionTimer
+from stommel.link.traffic import Traffic
 
 STILL_HERE = 4.0
 """Something is said at least so often while segments come [s]: who hears nothing stops sending."""
@@ -60,6 +61,8 @@ class Fetch:
         What is known of the round trip already.
     before
         The fetch of the same transfer that this one takes the place of: what it counted goes on.
+    traffic
+        Counts of this end; None: nobody asks.
     """
 
     def __init__(
@@ -70,8 +73,10 @@ class Fetch:
         keeper: Keeper,
         timer: RetransmissionTimer | None = None,
         before: "Fetch | None" = None,
+        traffic: Traffic | None = None,
     ) -> None:
         self.peer, self.transfer, self._keeper = peer, transfer, keeper
+        self._traffic = Traffic() if traffic is None else traffic
         self.recovery = Recovery(missing)
         self.loss: LossBySize = LossBySize() if before is None else before.loss
         self.loss.forget_number()
@@ -137,6 +142,7 @@ class Fetch:
         self.counts = counts._replace(
             received=counts.received + new, duplicate=counts.duplicate + length - new, frames=counts.frames + 1
         )
+        self._traffic.received(new, t)
         self.pace.note(new, t)
         self._waits = 0
 

@@ -11,6 +11,8 @@ from stommel.link.files.sending import Peer, Sender, Transfer
 from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
+from stommel.link.traffic import Traffic
+from stommel.link.words import fitted
 from stommel.messages.mavlink import FieldValue
 
 MOST_REASON = 100
@@ -28,12 +30,18 @@ class FileServer:
         Who answers.
     port
         The files.
+    traffic
+        Counts of this end; None: nobody asks.
     """
 
-    def __init__(self, system: int, component: int, port: FilePort) -> None:
+    def __init__(self, system: int, component: int, port: FilePort, traffic: Traffic | None = None) -> None:
         self._system, self._component, self._port = system, component, port
         self._ftp = FtpServer(system, component, port)
-        self._sender, self._receiving, self._digests = Sender(component), Receiving(port), Digests(port)
+        self._sender, self._receiving, self._digests = (
+            Sender(component, traffic),
+            Receiving(port, traffic),
+            Digests(port),
+        )
         self._answers: deque[tuple[str, dict[str, FieldValue]]] = deque(maxlen=_MOST_WAITING)
         self._take = {
             "FILE_OPEN": self._open,
@@ -113,7 +121,7 @@ class FileServer:
         system, component = peer
         address: dict[str, FieldValue] = {
             "target_system": system, "target_component": component, "transfer": transfer,
-            "reason": reason.encode()[:MOST_REASON].decode("utf-8", "ignore"),
+            "reason": fitted(reason, MOST_REASON),
         }  # fmt: skip
         self._answers.append((name, address | values))
 

@@ -13,6 +13,7 @@ from stommel.link.files.values import text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
 from stommel.link.timing import RetransmissionTimer
+from stommel.link.traffic import Traffic
 
 _ROOM = 255
 _QUIET = 3.0
@@ -36,6 +37,8 @@ class Upload:
         Time without an answer after which it has failed [s], not counting pauses; None: never.
     timer
         What is known of the round trip already.
+    traffic
+        Counts of this end; None: nobody asks.
     """
 
     def __init__(
@@ -47,12 +50,13 @@ class Upload:
         *,
         patience: float | None = PATIENCE,
         timer: RetransmissionTimer | None = None,
+        traffic: Traffic | None = None,
     ) -> None:
         self._own, self._peer, self.path = own, peer, path
         self._content, self._sha256 = content, hashlib.sha256(content).digest()
         self.transfer = transfer_number("upload", own, path)
         self._asking = Asking(timer, patience)
-        self._sender = Sender()
+        self._sender = Sender(traffic=traffic)
         self._sent = Ranges()
         self._heard = float("-inf")
         self._begun = False

@@ -115,11 +115,13 @@ class ShoreEnd:
 
     def download(self, path: str, disk: Disk, name: str, patience: float | None = None) -> Download:
         """Begin to fetch a file, or go on where it was left."""
-        return self._add(Download(OURS, self.vehicle, path, disk, name, patience=patience))
+        traffic = self.statistics.traffic
+        return self._add(Download(OURS, self.vehicle, path, disk, name, patience=patience, traffic=traffic))
 
     def upload(self, content: bytes, path: str, patience: float | None = None) -> Upload:
         """Begin to send a file, or go on where it was left."""
-        return self._add(Upload(OURS, self.vehicle, content, path, patience=patience))
+        traffic = self.statistics.traffic
+        return self._add(Upload(OURS, self.vehicle, content, path, patience=patience, traffic=traffic))
 
     def listing(self, folder: str, patience: float | None = None) -> Listing:
         """Begin to list a folder."""

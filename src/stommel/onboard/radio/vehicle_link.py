@@ -125,7 +125,7 @@ class VehicleLink:
             self.telemetry,
             self._reports,
             self.statistics,
-            FileServer(*me, files),
+            FileServer(*me, files, self.statistics.traffic),
         ]
 
     def observe(self, t: float) -> None:

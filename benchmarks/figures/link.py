@@ -8,6 +8,7 @@ from tempfile import TemporaryDirectory
 from time import process_time
 
 from figures.registry import Measurement, figure
+from stommel.files.folder_storage import FolderStorage
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.presence import SHORE_HEARTBEAT, Presence
 from stommel.link.service import Received
@@ -17,7 +18,6 @@ from stommel.link.signing.key_file import KeyFile, new_keys
 from stommel.link.statistics import Statistics
 from stommel.link.time_sync import TimeSync
 from stommel.messages.mavlink import Fields
-from stommel.onboard.coordination.stores.folder import FolderStorage
 
 _MESSAGES, _REPEATS, _MODEM = 10_000, 3, 2880
 _NOW = 1_800_000_000.0

@@ -23,7 +23,7 @@ OPENS = {
     "design/published/__init__.py": "the package's own data",
     "ocean/reading/classic.py": "after files/opening.py has looked at the file",
     "link/files/folder_disk.py": "received files and their journals",
-    "onboard/coordination/stores/folder.py": "the vehicle's own disk",
+    "files/folder_storage.py": "the vehicle's own disk",
     "studies/study.py": "digest of ocean files that were read before",
     "studies/journal.py": "its lock",
     "studies/result.py": "what it has written itself",

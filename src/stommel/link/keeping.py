@@ -4,7 +4,7 @@ import hashlib
 import json
 from typing import Any
 
-from stommel.link.storage import Storage, replace_whole
+from stommel.files.storage import Storage, replace_whole
 
 MOST_BYTES = 1 << 20
 """That are read of such a file."""

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
+from stommel.files.folder_storage import FolderFile, FolderStorage
 from stommel.messages.database import database_hash
 from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook, LogSettings
-from stommel.onboard.coordination.stores.folder import FolderFile, FolderStorage
 from stommel.simulation.scenario.mission import Mission
 from stommel.version import __version__
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from stommel.files.folder_storage import FolderStorage
 from stommel.onboard.coordination.stores.continuity import Continuity, ContinuityStore
-from stommel.onboard.coordination.stores.folder import FolderStorage
 
 FIRST = Continuity(1, True, ("leak",), 3, 2, 5000.0)
 SECOND = FIRST._replace(waypoint=3, energy_used=7000.5, standing=())

@@ -9,10 +9,10 @@ import pytest
 from typer.testing import CliRunner
 
 from stommel.cli.app import app
+from stommel.files.folder_storage import FolderStorage
 from stommel.onboard.coordination.logbook.framing import LogIdentity
 from stommel.onboard.coordination.logbook.logbook import Logbook, LogSettings
 from stommel.onboard.coordination.logbook.records import CTD, DECISION, HULL
-from stommel.onboard.coordination.stores.folder import FolderStorage
 
 
 @pytest.fixture

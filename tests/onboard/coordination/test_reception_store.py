@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from stommel.onboard.coordination.stores.folder import FolderStorage
+from stommel.files.folder_storage import FolderStorage
 from stommel.onboard.coordination.stores.missions import MissionStore
 from stommel.onboard.coordination.stores.piece_file import announcement, piece, read_pieces
 from stommel.onboard.coordination.stores.reception import ReceptionError

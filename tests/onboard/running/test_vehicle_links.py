@@ -11,13 +11,13 @@ from typing import Any
 
 import pytest
 
+from stommel.files.folder_storage import FolderStorage
 from stommel.link.commands.states import State
 from stommel.link.files.folder_disk import FolderDisk
 from stommel.link.shore.shore_end import ShoreEnd, ShoreSettings
 from stommel.link.signing.guard import Guard
 from stommel.link.signing.key_file import KeyFile, new_keys
 from stommel.onboard.coordination.config import Configuration
-from stommel.onboard.coordination.stores.folder import FolderStorage
 from stommel.onboard.running.vehicle_software import LAST_WORDS
 from stommel.simulation.scenario.shipped import mission_path
 from tests.onboard.running.rig import Port, Rig, Time, configured, software

@@ -17,11 +17,11 @@ from stommel.cli.status import INTERRUPTED
 from stommel.errors import StommelError
 
 if TYPE_CHECKING:
+    from stommel.files.folder_storage import FolderStorage
     from stommel.link.shore.shore_end import ShoreEnd
     from stommel.link.signing.guard import Guard
     from stommel.link.signing.key_file import KeyFile
     from stommel.link.transports.transport import Transport
-    from stommel.onboard.coordination.stores.folder import FolderStorage
 
 LOOKS_EVERY = 0.01
 """Between two looks at the line [s]."""
@@ -183,7 +183,7 @@ def _guard(keys: "KeyFile | None", storage: "FolderStorage") -> "Guard":
 def _storage(state: Path | None, vehicle: int) -> Iterator["FolderStorage"]:
     """The folder of what must outlive the program, which no other program has meanwhile."""
     from stommel.files.folder_lock import FolderInUseError, locked
-    from stommel.onboard.coordination.stores.folder import FolderStorage
+    from stommel.files.folder_storage import FolderStorage
 
     folder = _state_folder(state, vehicle)
     with ExitStack() as held:

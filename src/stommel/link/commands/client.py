@@ -3,13 +3,13 @@
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
+from stommel.files.storage import Storage
 from stommel.link.commands.report import Report, report_of
 from stommel.link.commands.shore_queue import ShoreQueue, Waiting
 from stommel.link.commands.states import LATEST, MOST_AHEAD, Command, Progress, State, When
 from stommel.link.commands.table import ABORT, CommandError, command_named, packed
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import VEHICLE_COMPONENT, Received, is_for
-from stommel.link.storage import Storage
 from stommel.link.timing import MOST as LONGEST_WAIT
 from stommel.link.timing import RetransmissionTimer
 from stommel.messages.mavlink import message_named

@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from stommel.errors import StommelError
+from stommel.files.storage import Storage
 from stommel.link.commands.states import LATEST, Command, Progress, State, When, short
 from stommel.link.keeping import DamagedError, keep, kept
-from stommel.link.storage import Storage
 
 FILE = "commands"
 MOST = 256

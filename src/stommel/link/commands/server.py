@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from contextlib import suppress
 
 from stommel.errors import StommelError
+from stommel.files.storage import Storage
 from stommel.link.commands.answers import Answers
 from stommel.link.commands.ledger import Entry, Ledger, LedgerError
 from stommel.link.commands.port import CommandPort, PeerClock, Readiness
@@ -20,7 +21,6 @@ from stommel.link.commands.states import (
 from stommel.link.commands.table import ABORT, command_numbered, refusal
 from stommel.link.outbox import Outbox
 from stommel.link.service import SHORE_SYSTEM, Received
-from stommel.link.storage import Storage
 
 EVERY = 1.0
 """Between two reports of a command in progress [s]."""

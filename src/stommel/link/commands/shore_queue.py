@@ -4,10 +4,10 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from stommel.files.storage import Storage
 from stommel.link.commands.states import Command, Progress, State, When, short
 from stommel.link.commands.table import CommandError
 from stommel.link.keeping import DamagedError, keep, kept
-from stommel.link.storage import Storage
 
 FILE = "commands"
 MOST_OPEN = 64

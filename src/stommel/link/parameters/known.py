@@ -3,6 +3,7 @@
 import json
 from typing import Any, NamedTuple
 
+from stommel.files.storage import Storage, replace_whole
 from stommel.link.parameters.encoding import (
     LEAST_INT,
     MOST_INT,
@@ -13,7 +14,6 @@ from stommel.link.parameters.encoding import (
     values_digest,
 )
 from stommel.link.parameters.port import Description, ParameterKind, ParameterState, Value
-from stommel.link.storage import Storage, replace_whole
 
 _FORMAT = 1
 _MOST_BYTES = 8 << 20

@@ -81,10 +81,12 @@ class Heard:
         assert isinstance(severity, int)
         if number:
             parts = self._parts.setdefault(number, {})
+            if chunk in parts:
+                parts.clear()  # of a text whose end was lost, before the vehicle began to count anew
             parts[chunk] = words
             while len(self._parts) > _MOST_PARTS:
                 del self._parts[next(iter(self._parts))]
-            if len(words.encode()) == _TEXT:
+            if len(words.encode("utf-8", "replace")) >= _TEXT:  # not shorter where a letter was cut
                 return  # more of it follows
             del self._parts[number]
             words = "".join(parts.get(k, " ... ") for k in range(max(parts) + 1))

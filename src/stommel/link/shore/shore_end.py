@@ -4,6 +4,7 @@ import random
 from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
+from stommel.files.storage import Storage
 from stommel.link.commands.client import CommandClient
 from stommel.link.files.disk import Disk
 from stommel.link.files.download import Download
@@ -24,7 +25,6 @@ from stommel.link.signing.challenge import Challenge
 from stommel.link.signing.guard import Guard, PortGuard
 from stommel.link.signing.key_change import KeyOffer
 from stommel.link.statistics import LinkStatistics, Statistics
-from stommel.link.storage import Storage
 from stommel.link.time_sync import TimeSync
 
 S = TypeVar("S", Download, Upload, Listing, Release)

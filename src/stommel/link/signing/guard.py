@@ -7,12 +7,12 @@ from functools import cache
 from typing import NamedTuple
 
 from stommel.errors import StommelError
+from stommel.files.storage import Storage
 from stommel.link.frames import RawFrame
 from stommel.link.signing.keys import Key, Keys, KeyStore
 from stommel.link.signing.refusals import Refusal, Refusals
 from stommel.link.signing.signature import holds, link_and_stamp, signed
 from stommel.link.signing.stamps import MOST_STREAMS, Stamps, Stream, stamp_of
-from stommel.link.storage import Storage
 from stommel.messages.mavlink import message_named
 
 NONCE = 16

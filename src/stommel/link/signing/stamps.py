@@ -8,9 +8,9 @@ disk stands a number ahead of it, moved on in blocks: after a restart at any poi
 from math import isfinite
 from typing import Any
 
+from stommel.files.storage import Storage
 from stommel.link.keeping import DamagedError, keep, kept
 from stommel.link.signing.refusals import Refusal
-from stommel.link.storage import Storage
 
 EPOCH = 1_420_070_400
 """2015-01-01, where stamps begin [s of UTC since 1970]."""

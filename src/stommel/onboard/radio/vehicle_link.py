@@ -4,6 +4,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
+from stommel.files.storage import Storage
 from stommel.link.commands.identity import Identity
 from stommel.link.commands.server import CommandServer
 from stommel.link.commands.standard import StandardCommands
@@ -20,7 +21,6 @@ from stommel.link.signing.challenge import Challenge
 from stommel.link.signing.guard import Guard, PortGuard
 from stommel.link.signing.key_change import KeyAnswer
 from stommel.link.statistics import Statistics
-from stommel.link.storage import Storage
 from stommel.link.time_sync import TimeSync
 from stommel.onboard.coordination.coordinator import Coordinator
 from stommel.onboard.coordination.stores.missions import StoredMission
@@ -129,8 +129,10 @@ class VehicleLink:
         ]
 
     def observe(self, t: float) -> None:
-        """Look at what the coordinator has decided at a time [s]; it learns how the key is."""
+        """Look at what the coordinator has decided at a time [s], once for each decision; it learns how the key is."""
         self._coordinator.key_alarm = self.guard.alarm
+        if self._seen is not None and self._coordinator.view is self._seen.view:
+            return  # the coordinator sleeps: what it said then is not said again, nor dated anew
         seen = observe(self._coordinator, self._utc(t))
         if seen is not None:
             self._seen = seen

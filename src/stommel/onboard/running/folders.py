@@ -6,9 +6,9 @@ from pathlib import Path
 
 from stommel.errors import FileError, Problem
 from stommel.files.folder_lock import FolderInUseError, locked
+from stommel.files.folder_storage import FolderStorage
 from stommel.link.files.folder_disk import FolderDisk
 from stommel.onboard.coordination.config import Configuration
-from stommel.onboard.coordination.stores.folder import FolderStorage
 
 INBOX = "inbox"
 FOLDERS = ("missions", "parameters", "log.folder", INBOX)

@@ -4,10 +4,10 @@ import os
 from pathlib import Path
 
 from stommel.errors import FileError, Problem
+from stommel.files.storage import Storage
 from stommel.link.signing.guard import Guard
 from stommel.link.signing.key_file import KeyFile
 from stommel.link.signing.keys import Keys
-from stommel.link.storage import Storage
 from stommel.onboard.coordination.config import Configuration
 
 

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Callable
 
-from stommel.link.storage import Storage
+from stommel.files.storage import Storage
 from stommel.onboard.coordination.config import Configuration
 from stommel.onboard.coordination.coordinator import Coordinator
 from stommel.onboard.coordination.stores.missions import MissionStore, StoredMission

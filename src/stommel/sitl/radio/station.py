@@ -5,11 +5,11 @@ import hashlib
 import numpy as np
 
 from stommel.control.orders_file import orders_text
+from stommel.files.storage import Storage
 from stommel.link.channel.settings import ChannelSettings
 from stommel.link.signing.guard import Guard
 from stommel.onboard.coordination.coordinator import Coordinator
 from stommel.onboard.coordination.stores.missions import MissionStore
-from stommel.onboard.coordination.stores.storage import Storage
 from stommel.onboard.radio.files import VehicleFiles
 from stommel.onboard.radio.flown_mission import FlownMission
 from stommel.onboard.radio.mission_port import MissionPort

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from stommel.errors import StommelError
+from stommel.files.storage import Storage
 from stommel.onboard.coordination.logbook.file_names import LogName, log_name
 from stommel.onboard.coordination.logbook.framing import SEQUENCES, LogIdentity, encoder, header
 from stommel.onboard.coordination.logbook.records import DETAIL, ESSENTIAL, EVENT, KINDS, RAW, SERIES, RecordKind
 from stommel.onboard.coordination.logbook.series import Counts, Series, SyncPolicy
-from stommel.onboard.coordination.stores.storage import Storage
 
 _OFTEN, _AT_TIMES, _SELDOM = SyncPolicy(20, 5.0), SyncPolicy(200, 30.0), SyncPolicy(2000, 60.0)
 _HEADER_BYTES = 4096

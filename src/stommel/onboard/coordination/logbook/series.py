@@ -5,7 +5,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import NamedTuple
 
-from stommel.onboard.coordination.stores.storage import OpenFile, Storage
+from stommel.files.storage import OpenFile, Storage
 
 
 class SyncPolicy(NamedTuple):

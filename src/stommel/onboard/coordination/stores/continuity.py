@@ -4,8 +4,8 @@ import json
 import math
 from typing import NamedTuple
 
-from stommel.onboard.coordination.stores.replacing import replace_whole, sealed, unsealed
-from stommel.onboard.coordination.stores.storage import Storage
+from stommel.files.storage import Storage, replace_whole
+from stommel.onboard.coordination.stores.sealing import sealed, unsealed
 
 _COPIES = ("continuity-a", "continuity-b")
 _MOST_BYTES = 1 << 16

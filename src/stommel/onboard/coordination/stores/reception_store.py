@@ -8,9 +8,9 @@ when that is on the disk are the older ones removed. A disk that takes nothing l
 import re
 from contextlib import suppress
 
+from stommel.files.storage import OpenFile, Storage
 from stommel.onboard.coordination.stores.piece_file import PIECE_OVERHEAD, announcement, piece, read_pieces
 from stommel.onboard.coordination.stores.reception import MOST_BYTES, Reception, ReceptionError
-from stommel.onboard.coordination.stores.storage import OpenFile, Storage
 
 _NAME = re.compile(r"reception-(\d{6,})\.pieces")
 _MOST_FILES = 3

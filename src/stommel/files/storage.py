@@ -1,7 +1,7 @@
-"""What the link needs of a disk. Files have plain names; nothing here opens any.
+"""What stores and logs need of a disk. Files have plain names; nothing here opens any.
 
 Every method may raise OSError: the disk is full, or broken. What was synced is still there after a loss of power; what
-was only written may be there whole, in part, or not at all. The vehicle's own storage has the same shape.
+was only written may be there whole, in part, or not at all.
 """
 
 from typing import Protocol
@@ -39,15 +39,15 @@ class Storage(Protocol):
         """Remove a file."""
 
 
-def replace_whole(storage: Storage, name: str, content: bytes) -> None:
-    """Bring a file into being under its name: whole, on the disk, or not at all.
+def replace_whole(storage: Storage, name: str, content: bytes, part: str = "") -> None:
+    """Bring a file into being under its name: whole, on the disk, or not at all; it grows under the name `part`.
 
     Raises
     ------
     OSError
         The disk does not keep it; what stood under the name still does.
     """
-    part = f"{name}.part"
+    part = part or f"{name}.part"
     if part in storage.sizes():
         storage.remove(part)
     file = storage.create(part)

@@ -14,11 +14,11 @@ from stommel.link.files.received_file import (
     identity_on_disk,
 )
 from stommel.link.files.request_words import transfer_number
-from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
 from stommel.link.timing import RetransmissionTimer
 from stommel.link.traffic import Traffic
+from stommel.link.values import octets, text, whole
 
 ALL = 0xFFFFFFFF
 _MOST_STARTS = 2
@@ -136,16 +136,16 @@ class Download:
             self._end(State.FAILED, str(error))
 
     def _identified(self, received: Received, t: float) -> None:
-        result, size = FileResult(whole(received, "result")), whole(received, "size")
+        result, size = FileResult(whole(received.values, "result")), whole(received.values, "size")
         if result is FileResult.UNKNOWN:
             self._identify_again(t)
         elif result is FileResult.OK and self.state is State.IDENTIFYING:
             self._asking.answered(t)
-            self._begin(Identity(self.path, size, octets(received, "sha256").hex()), t)
+            self._begin(Identity(self.path, size, octets(received.values, "sha256").hex()), t)
         elif result is FileResult.CHANGED:
-            self._changed(text(received, "reason"), t)
+            self._changed(text(received.values, "reason"), t)
         elif result not in (FileResult.OK, FileResult.NO_ROOM):  # room may come
-            self._end(State.REFUSED, text(received, "reason") or result.name)
+            self._end(State.REFUSED, text(received.values, "reason") or result.name)
 
     def _identify_again(self, t: float) -> None:
         """The other end does not know this transfer, any more or yet."""

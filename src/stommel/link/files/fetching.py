@@ -8,11 +8,11 @@ from stommel.link.files.pace import Pace
 from stommel.link.files.ranges import Range
 from stommel.link.files.recovery import MOST_REQUESTS, Recovery
 from stommel.link.files.request_words import LONGEST, MOST_RANGES, PROBE, packed_ranges
-from stommel.link.files.values import octets, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received
 from stommel.link.timing import FIRST, RetransmissionTimer
 from stommel.link.traffic import Traffic
+from stommel.link.values import octets, whole
 
 STILL_HERE = 4.0
 """Something is said at least so often while segments come [s]: who hears nothing stops sending."""
@@ -128,13 +128,13 @@ class Fetch:
 
     def take(self, received: Received, t: float) -> None:
         """Take FILE_DATA of this transfer at a time [s]."""
-        offset, length, serial = whole(received, "offset"), whole(received, "length"), whole(received, "serial")
-        data = octets(received, "data")[:length]
+        values = received.values
+        offset, length, serial, echo = (whole(values, name) for name in ("offset", "length", "serial", "echo"))
+        data = octets(values, "data")[:length]
         if not 0 < length <= MOST_SEGMENT or len(data) != length:
             return
-        echo = whole(received, "echo")
         self._measure(echo, t)
-        self.loss.note(whole(received, "number"), probing=self._probing.get(echo, False))
+        self.loss.note(whole(values, "number"), probing=self._probing.get(echo, False))
         for first, last in self.recovery.missing.within(offset, offset + length):
             self._keeper.write(first, data[first - offset : last - offset], t)
         new = self.recovery.take(serial, offset, length, t)

@@ -6,10 +6,10 @@ from stommel.errors import StommelError
 from stommel.link.files.fetching import Fetch
 from stommel.link.files.paths import file_path
 from stommel.link.files.port import FilePort, FileRefusalError, FileResult, Part
-from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox
 from stommel.link.service import Received
 from stommel.link.traffic import Traffic
+from stommel.link.values import octets, text, whole
 
 MOST_INCOMING = 4
 FORGOTTEN = 900.0
@@ -60,8 +60,8 @@ class Receiving:
 
     def offer(self, received: Received, t: float) -> None:
         """Take FILE_OFFER: begin, or go on; what has ended says so again."""
-        key = ((received.system, received.component), whole(received, "transfer"))
-        offer = _Offer(text(received, "path"), whole(received, "size"), octets(received, "sha256"))
+        key = ((received.system, received.component), whole(received.values, "transfer"))
+        offer = _Offer(text(received.values, "path"), whole(received.values, "size"), octets(received.values, "sha256"))
         incoming, ended = self._incoming.get(key), self._ended.get(key)
         if ended is not None and ended.offer == offer and self._holds(ended, t):
             self.outcomes.append((key, ended.outcome))
@@ -97,7 +97,7 @@ class Receiving:
 
     def data(self, received: Received, t: float) -> None:
         """Take FILE_DATA."""
-        key = ((received.system, received.component), whole(received, "transfer"))
+        key = ((received.system, received.component), whole(received.values, "transfer"))
         incoming = self._incoming.get(key)
         if incoming is None:
             self._unknown(key, t)

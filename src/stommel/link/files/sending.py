@@ -8,10 +8,10 @@ from stommel.link.files.loss import MOST_SEGMENT, SHORT_EVERY
 from stommel.link.files.port import FileRefusalError, FtpError
 from stommel.link.files.ranges import Range, Ranges
 from stommel.link.files.request_words import PROBE, unpacked_ranges
-from stommel.link.files.values import octets, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received
 from stommel.link.traffic import Traffic
+from stommel.link.values import octets, whole
 
 MOST_TRANSFERS = 8
 FORGOTTEN = 900.0
@@ -167,12 +167,12 @@ class Sender:
     def request(self, received: Received, t: float) -> bool:
         """Take FILE_REQUEST at a time [s]; False if there is no such transfer."""
         values = received.values
-        key = ((received.system, received.component), whole(received, "transfer"))
+        key = ((received.system, received.component), whole(received.values, "transfer"))
         transfer = self._transfers.get(key)
         if transfer is None:
             return False
         numbers = {name: int(value) for name, value in values.items() if isinstance(value, int)}
-        transfer.request(numbers, octets(received, "ranges"), t)
+        transfer.request(numbers, octets(received.values, "ranges"), t)
         return True
 
     def poll(self, t: float, outbox: Outbox) -> None:

@@ -8,10 +8,10 @@ from stommel.link.files.paths import file_path, shown
 from stommel.link.files.port import FilePort, FileRefusalError, FileResult, FtpError, Path
 from stommel.link.files.receiving import Receiving
 from stommel.link.files.sending import Peer, Sender, Transfer
-from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
 from stommel.link.traffic import Traffic
+from stommel.link.values import octets, text, whole
 from stommel.link.words import fitted
 from stommel.messages.mavlink import FieldValue
 
@@ -77,12 +77,12 @@ class FileServer:
 
     def _open(self, received: Received, t: float) -> None:
         peer, number = _who(received)
-        length = whole(received, "length")
+        length = whole(received.values, "length")
         self._sender.forget_requests(peer, number)
         if (peer, number) in self._digests:
             return  # asked again while it is being summed
         try:
-            path = file_path(text(received, "path"))
+            path = file_path(text(received.values, "path"))
             there = min(self._port.size(path), _MOST_SIZE - 1)
             if length != _MOST_SIZE and length > there:
                 reason = f"{shown(path)}: has {there} bytes, {length} were asked for"
@@ -129,12 +129,12 @@ class FileServer:
 
     def _release(self, received: Received, _t: float) -> None:
         peer, number = _who(received)
-        sha256, size = octets(received, "sha256"), whole(received, "size")
+        sha256, size = octets(received.values, "sha256"), whole(received.values, "size")
         key = (peer, number, "release")
         if key in self._digests:
             return
         try:
-            path = file_path(text(received, "path"))
+            path = file_path(text(received.values, "path"))
             there = self._port.size(path)
             if there != size:
                 self._answer_outcome(peer, number, FileResult.CHANGED, f"has {there} bytes, not {size}: not deleted")
@@ -160,4 +160,4 @@ class FileServer:
 
 
 def _who(received: Received) -> tuple[Peer, int]:
-    return (received.system, received.component), whole(received, "transfer")
+    return (received.system, received.component), whole(received.values, "transfer")

@@ -9,11 +9,11 @@ from stommel.link.files.progress import Progress, State
 from stommel.link.files.ranges import Ranges
 from stommel.link.files.request_words import transfer_number
 from stommel.link.files.sending import Sender, Transfer
-from stommel.link.files.values import text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
 from stommel.link.timing import RetransmissionTimer
 from stommel.link.traffic import Traffic
+from stommel.link.values import text, whole
 
 _ROOM = 255
 _QUIET = 3.0
@@ -93,7 +93,7 @@ class Upload:
         if received.name == "FILE_REQUEST":
             self._request(received, t)
         elif received.name == "FILE_OUTCOME":
-            self._end_or_offer(FileResult(whole(received, "result")), text(received, "reason"), t)
+            self._end_or_offer(FileResult(whole(received.values, "result")), text(received.values, "reason"), t)
 
     def _end_or_offer(self, result: FileResult, reason: str, t: float) -> None:
         if result is FileResult.UNKNOWN:

@@ -328,6 +328,7 @@ def test_a_vehicle_that_does_not_sign_is_not_believed(shore: Shore) -> None:
 def test_a_second_program_is_kept_out_of_the_folder(shore: Shore) -> None:
     from stommel.files.folder_lock import locked
 
+    (shore.folder / "state").mkdir(exist_ok=True)
     with locked(shore.folder / "state"):
         found = shore.call("status")
     assert (found.status, found.out) == (2, "")

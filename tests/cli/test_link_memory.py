@@ -3,11 +3,18 @@
 Oracle: the rules of errors (`stommel.cli`), and what was put into the folders by hand.
 """
 
+import socket
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
+from stommel.link.frames import frame_bytes
 from stommel.link.signing.key_file import KeyFile, new_keys
+from stommel.messages.mavlink import message_named
 from tests.support.command import Outcome, run_here
 
 NOBODY = ("--to", "tcp:127.0.0.1:9", "--within", "0.1")
@@ -55,3 +62,45 @@ def test_commands_of_before_the_clock_was_set_back_are_told_as_taken_back(
     assert all(each["words"].startswith("taken back") for each in found["commands"])
     assert [each["id"] for each in found["commands"]] == [given.json["id"]]
     assert "clock is 86400 s behind" in found["notes"][0]
+
+
+@contextmanager
+def saying(words: bytes) -> Iterator[str]:
+    """Address of a program that says the same again and again to whoever connects."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def talk() -> None:
+            try:
+                connected, _ = server.accept()
+                with connected:
+                    while True:
+                        connected.sendall(words)
+                        time.sleep(0.02)
+            except OSError:  # it has heard enough
+                return
+
+        thread = threading.Thread(target=talk)
+        thread.start()
+        yield f"tcp:127.0.0.1:{server.getsockname()[1]}"
+        thread.join(10.0)
+
+
+def status_of(folder: Path, address: str) -> str:
+    found = run_here(folder, "link", "status", "--to", address, "--unsigned", "--state", "state", "--within", "0.3")
+    assert (found.status, found.out) == (2, "")
+    return found.err
+
+
+def test_a_peer_of_mavlink_1_is_not_silence(tmp_path: Path) -> None:
+    """A HEARTBEAT of the old protocol, byte for byte from pymavlink."""
+    with saying(bytes.fromhex("fe09000101000000000016080004032001")) as address:
+        told = status_of(tmp_path, address)
+    assert "bytes came, but no sound frame of MAVLink 2" in told
+    assert "nothing came" not in told
+
+
+def test_a_peer_with_another_release_of_the_messages_is_named(tmp_path: Path) -> None:
+    kind = message_named("HEARTBEAT")
+    other = frame_bytes(kind._replace(crc_extra=kind.crc_extra ^ 1), kind.pack({"type": 12}), 1, 1, 0)
+    with saying(other) as address:
+        assert "the other end has another version of HEARTBEAT" in status_of(tmp_path, address)

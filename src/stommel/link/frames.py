@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from fastcrc import crc16
 
+from stommel.link.versions import OtherVersions
 from stommel.messages.mavlink import MessageType, message_types
 
 MARK = 0xFD
@@ -47,6 +48,8 @@ class FrameSplitter:
         """Frames with a wrong checksum, and stretches of bytes without any frame."""
         self.unknown = 0
         """Frames of a message that neither dialect has: their checksum cannot be told."""
+        self.versions = OtherVersions()
+        """Messages that the other end defines otherwise."""
 
     def take(self, data: bytes) -> list[RawFrame]:
         """Return the frames that are whole now."""
@@ -109,7 +112,9 @@ class FrameSplitter:
             self.unknown += 1
             return None
         end = HEAD + length
-        if checksum(raw[1:end], message.crc_extra) != raw[end] | raw[end + 1] << 8:
+        told = raw[end] | raw[end + 1] << 8
+        if checksum(raw[1:end], message.crc_extra) != told:
+            self.versions.look(message.name, raw[1:end], told)
             return None
         return RawFrame(raw[5], raw[6], raw[4], message, raw[HEAD:end], raw)
 

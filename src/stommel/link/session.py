@@ -76,6 +76,11 @@ class Session:
         """Frames of a message that neither dialect has."""
         return self._splitter.unknown
 
+    @property
+    def versions(self) -> str:
+        """That the other end has another version of some messages, in words; empty if it has not."""
+        return self._splitter.versions.sentence
+
     def peers(self) -> dict[Peer, SequenceCounts]:
         """Everybody who was heard, with the counts of their frames."""
         return {peer: watch.counts for peer, watch in self._watches.items()}

@@ -116,6 +116,8 @@ class Line:
             return f"{what}: {'; '.join(end.guard.status)}"
         if others:
             return f"{what}; heard is {', '.join(f'vehicle {system}' for system in others)}: name it with --vehicle"
+        if end.session.line.bytes:
+            return f"{what}: {end.session.line.bytes} bytes came, but no sound frame of MAVLink 2"
         return f"{what}: nothing came; it is under water, out of reach, or its radio is off"
 
 
@@ -146,7 +148,11 @@ def line_to(to: str, key: Path | None, unsigned: bool, vehicle: int | None, stat
         guard = _guard(keys, storage)
         transport = open_transport(address)
         try:
-            yield Line(ShoreEnd(settings, guard, system, os.urandom, storage, now()), transport, now)
+            end = ShoreEnd(settings, guard, system, os.urandom, storage, now())
+            try:
+                yield Line(end, transport, now)
+            except LinkError as error:
+                raise LinkError(f"{error}; {end.session.versions}" if end.session.versions else str(error)) from None
         except KeyboardInterrupt:
             typer.echo("interrupted; what has come is kept, and the same command goes on from there", err=True)
             raise typer.Exit(INTERRUPTED) from None

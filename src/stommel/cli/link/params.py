@@ -67,8 +67,9 @@ def _row(line: "Line") -> dict[str, Any]:
 
     client = line.end.parameters
     ended = {outcome.component: outcome for outcome in client.refreshed or ()}
-    if not ended and not client.known.sets:
-        raise LinkError("the vehicle has told of no parameters in this time")
+    if not client.known.sets:
+        told = "; ".join(sorted({outcome.words for outcome in ended.values() if outcome.words}))
+        raise LinkError(told or "the vehicle has told of no parameters in this time")
     return {
         "components": [
             {
@@ -80,6 +81,18 @@ def _row(line: "Line") -> dict[str, Any]:
                 "parameters": [_parameter(known, k) for k in range(len(known.descriptions))],
             }
             for known in sorted(client.known.sets.values(), key=attrgetter("component"))
+        ]
+        + [
+            {
+                "component": outcome.component,
+                "name": outcome.name,
+                "state": "unknown",
+                "whole": False,
+                "reason": outcome.words,
+                "parameters": [],
+            }
+            for outcome in ended.values()
+            if outcome.component not in client.known.sets
         ],
         "notes": client.known.notes,
     }

@@ -118,7 +118,18 @@ def read_text(path: str | Path, most_mib: int) -> str:
     FileError
         The file cannot be read, is larger than `most_mib` mebibytes, or is no text.
     """
-    content = read_bytes(path, most_mib).removeprefix(codecs.BOM_UTF8)
+    return text_of(read_bytes(path, most_mib), path)
+
+
+def text_of(content: bytes, path: str | Path) -> str:
+    r"""Text of bytes that were read from a file, as `read_text` returns it.
+
+    Raises
+    ------
+    FileError
+        They are no text.
+    """
+    content = content.removeprefix(codecs.BOM_UTF8)
     try:
         text = content.decode("utf-8")
     except UnicodeDecodeError as error:

@@ -20,7 +20,7 @@ from stommel.cli.link.line import (
 )
 from stommel.cli.numbers import number_option
 from stommel.cli.options import JsonOption
-from stommel.cli.output import show_entries, show_values
+from stommel.cli.output import show_entries, show_notes, show_values
 
 if TYPE_CHECKING:
     from stommel.link.commands.report import Report
@@ -111,7 +111,7 @@ def send(
                 report(found.percent / 100.0 if found.percent <= 100 else None, found.words or found.state.words)
 
             line.until(lambda: commands.report(id, line.now()).is_last, within, watch)
-        row = _row(commands.report(id, line.now()))
+        row = _row(commands.report(id, line.now())) | {"notes": commands.notes}
     finish(row, None, as_json, _show)
     if row["state"] not in ("done", "waiting aboard", "in progress"):
         raise typer.Exit(1)
@@ -138,7 +138,7 @@ def follow(
             commands.cancel(_id(cancel), line.now())
         line.until(lambda: all(each.is_last for each in commands.reports(line.now())), within)
         rows = [_row(each) for each in commands.reports(line.now())]
-    finish({"commands": rows}, None, as_json, _show_reports)
+    finish({"commands": rows, "notes": commands.notes}, None, as_json, _show_reports)
 
 
 def _numbers(values: list[str]) -> dict[str, float]:
@@ -183,6 +183,7 @@ def _show(row: dict[str, Any]) -> None:
     if row["words"]:
         values["words"] = row["words"]
     show_values(row["name"], values)
+    show_notes(row.get("notes", ()), "note")
 
 
 def _show_reports(row: dict[str, Any]) -> None:
@@ -190,3 +191,4 @@ def _show_reports(row: dict[str, Any]) -> None:
         typer.echo("no command was given")
     for each in row["commands"]:
         _show(each)
+    show_notes(row["notes"], "note")

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stommel.cli.numbers import count_option, number_option
+from stommel.cli.paths import folder_parser
 from stommel.cli.status import INTERRUPTED
 from stommel.errors import StommelError
 
@@ -39,7 +40,7 @@ ToOption = Annotated[
 KeyOption = Annotated[
     Path | None,
     typer.Option(
-        "--key", metavar="FILE", envvar="STOMMEL_LINK_KEY", help="Key of the vehicle (`stommel link key new`)."
+        "--key", metavar="KEY", envvar="STOMMEL_LINK_KEY", help="Key of the vehicle (`stommel link key new`)."
     ),
 ]
 UnsignedOption = Annotated[
@@ -51,7 +52,10 @@ VehicleOption = Annotated[
 StateOption = Annotated[
     Path | None,
     typer.Option(
-        "--state", metavar="FOLDER", help="Folder of what must outlive the program: commands, stamps, parameters."
+        "--state",
+        metavar="FOLDER",
+        parser=folder_parser("--state"),
+        help="Folder of what must outlive the program: commands, stamps, parameters.",
     ),
 ]
 WithinOption = Annotated[

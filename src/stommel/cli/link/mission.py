@@ -21,7 +21,7 @@ from stommel.cli.link.line import (
 )
 from stommel.cli.options import ForceOption, JsonOption
 from stommel.cli.output import show_table, show_values
-from stommel.cli.paths import refuse_existing
+from stommel.cli.paths import file_parser, refuse_existing
 
 if TYPE_CHECKING:
     from stommel.cli.link.line import Line
@@ -73,10 +73,10 @@ def upload(
     Example: stommel link mission upload orders.toml --to tcp:127.0.0.1:5760 --key zju-1.key
     """
     from stommel.control.orders_file import parse_orders
-    from stommel.files.opening import TOML_MIB, read_bytes, read_text
+    from stommel.files.opening import TOML_MIB, read_bytes, text_of
 
-    parse_orders(read_text(orders, TOML_MIB), str(orders))  # what is no orders file need not go to sea
     content = read_bytes(orders, TOML_MIB)
+    parse_orders(text_of(content, orders), str(orders))  # what is no orders file need not go to sea
     with line_to(to, key, unsigned, vehicle, state) as line:
         line.require_vehicle(within)
         client = line.end.orders
@@ -97,7 +97,9 @@ def upload(
 
 @mission_app.command("download")
 def download(
-    output: Annotated[Path, typer.Argument(metavar="FILE", help="Where the orders are written, .toml.")],
+    output: Annotated[
+        Path, typer.Argument(metavar="FILE", parser=file_parser("FILE", ".toml"), help="The file to write, .toml.")
+    ],
     to: ToOption,
     key: KeyOption = None,
     unsigned: UnsignedOption = False,
@@ -112,14 +114,16 @@ def download(
     Example: stommel link mission download aboard.toml --to tcp:127.0.0.1:5760 --unsigned
     """
     from stommel.cli.link.files import fetched
-    from stommel.files.whole import require_file
 
-    require_file(output)
     refuse_existing(output, force)
     with line_to(to, key, unsigned, vehicle, state) as line:
         line.require_vehicle(within)
-        fetched(line, "missions/active.orders", output, within)
+        row = fetched(line, "missions/active.orders", output, within)
         held = _held(line, within)
+    if row["name"] != output.name:
+        output.with_name(row["name"]).replace(output)  # --force: other orders stood there
+    if row["sha256"] != held.sha256.hex():
+        raise LinkError(f"{output}: has the orders of before; the vehicle holds others meanwhile: {held.name}")
     finish(_row(held), [output], as_json, _show)
 
 

@@ -49,7 +49,7 @@ def _row(line: "Line") -> dict[str, Any]:
         "link": link_row(end.link(now)),
         "link_of_the_vehicle": None if told is None else _told(told[1]),
         "signing": end.guard.mode.value,
-        "notes": [*end.guard.status, *end.session.notes],
+        "notes": [*end.guard.status, *end.session.notes, *end.commands.notes, *end.parameters.known.notes],
         "texts": [{"severity": text.severity, "words": text.words} for text in end.heard.texts],
     }
 

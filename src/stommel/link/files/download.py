@@ -3,7 +3,8 @@
 from stommel.link.files.asking import PATIENCE, Asking
 from stommel.link.files.disk import Disk
 from stommel.link.files.fetching import Fetch, FetchCounts
-from stommel.link.files.port import FileResult
+from stommel.link.files.paths import file_path
+from stommel.link.files.port import FileRefusalError, FileResult
 from stommel.link.files.progress import Progress, State
 from stommel.link.files.received_file import (
     Identity,
@@ -67,6 +68,7 @@ class Download:
         self._to_stop = False
         self._wanted: Identity | None = None
         try:
+            file_path(path)
             self._wanted = identity_on_disk(disk, name)
             if self._wanted is not None and self._wanted.path == path:
                 self._open(self._wanted)
@@ -74,6 +76,8 @@ class Download:
                 self._wanted = None
         except ReceivedFileError as error:
             self._end(State.FAILED, str(error))
+        except FileRefusalError as error:  # what no message can name need not be asked for
+            self._end(State.REFUSED, str(error))
 
     def _open(self, identity: Identity) -> None:
         """Go on with what is on the disk if it is of this file, or begin; segments may still be on their way."""

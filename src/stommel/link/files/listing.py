@@ -4,8 +4,9 @@ import zlib
 
 from stommel.link.files import ftp_words
 from stommel.link.files.asking import PATIENCE, Asking
-from stommel.link.files.ftp_words import MOST_DATA, Opcode, Words
-from stommel.link.files.port import Entry, FtpError
+from stommel.link.files.ftp_words import Opcode, Words
+from stommel.link.files.paths import plain_path
+from stommel.link.files.port import Entry, FileRefusalError, FtpError
 from stommel.link.files.progress import State
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
@@ -43,6 +44,10 @@ class Listing:
         self.entries: list[Entry] = []
         """What was listed; all of it once the state is WHOLE."""
         self.state, self.reason = State.IDENTIFYING, ""
+        try:
+            plain_path(folder)
+        except FileRefusalError as error:  # a part of the path would be another folder
+            self.state, self.reason = State.REFUSED, str(error)
 
     def take(self, received: Received, t: float) -> None:
         """Take a message at a time [s]."""
@@ -83,7 +88,7 @@ class Listing:
         if self._asking.is_hopeless(t):
             self.state, self.reason = State.FAILED, f"{self.folder}: no answer for {self._asking.patience:.0f} s"
         elif self._asking.is_due(t) and outbox.room(Priority.COMMAND) >= _ROOM:
-            data = self.folder.encode()[:MOST_DATA]
+            data = self.folder.encode()
             if self._sequence is None:
                 self._sequence = (int(t * 997.0) + zlib.crc32(data)) % 0xFFFF
             words = Words(self._sequence, 0, Opcode.LIST_DIRECTORY, len(data), offset=self._seen, data=data)

@@ -15,7 +15,7 @@ LONGEST = 0xFFFF
 
 def transfer_number(what: str, own: tuple[int, int], path: str) -> int:
     """Return the number of the transfer of a file: after a restart the same, so that what is on its way counts."""
-    return zlib.crc32(f"{what} {own[0]} {own[1]} {path}".encode()) % 0xFFFF + 1
+    return zlib.crc32(f"{what} {own[0]} {own[1]} {path}".encode("utf-8", "replace")) % 0xFFFF + 1
 
 
 def packed_ranges(ranges: Iterable[Range]) -> tuple[int, bytes]:

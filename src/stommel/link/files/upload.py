@@ -3,7 +3,8 @@
 import hashlib
 
 from stommel.link.files.asking import PATIENCE, Asking
-from stommel.link.files.port import FileResult
+from stommel.link.files.paths import file_path
+from stommel.link.files.port import FileRefusalError, FileResult
 from stommel.link.files.progress import Progress, State
 from stommel.link.files.ranges import Ranges
 from stommel.link.files.request_words import transfer_number
@@ -61,6 +62,10 @@ class Upload:
         self._begun = False
         self.state, self.reason = State.OFFERING, ""
         self.is_paused = False
+        try:
+            file_path(path)
+        except FileRefusalError as error:  # what no message can name need not be offered
+            self.state, self.reason = State.REFUSED, str(error)
 
     @property
     def progress(self) -> Progress:

@@ -28,7 +28,7 @@ def test_state_folder_that_cannot_be(tmp_path: Path, state: str, *, signed: bool
     KeyFile(tmp_path / "a.key").write(new_keys(1, 1.8e9))
     who = ("--key", "a.key") if signed else ("--unsigned",)
     line = refused(tmp_path, "status", *who, "--state", state)
-    assert line == f"error: {state}: cannot be written: Not a directory"
+    assert line == f"error: --state {state}: cannot be written: Not a directory"
 
 
 def follow(folder: Path, *arguments: object) -> Outcome:

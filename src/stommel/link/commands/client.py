@@ -54,8 +54,6 @@ class CommandClient:
     clock
         The clock [s] that our TIMESYNC tells, at such a time. It goes on when the program is started anew, as UTC does;
         if it is found set back, all open commands are taken back, since nobody can say when they expire.
-    vehicle_component
-        Who is commanded there.
     """
 
     def __init__(
@@ -68,9 +66,8 @@ class CommandClient:
         t: float,
         *,
         clock: Callable[[float], float] = lambda t: t,
-        vehicle_component: int = VEHICLE_COMPONENT,
     ) -> None:
-        self._me, self._vehicle = (system, component), (vehicle, vehicle_component)
+        self._me, self._vehicle = (system, component), (vehicle, VEHICLE_COMPONENT)
         self._draw, self._clock = draw, clock
         self._queue = ShoreQueue(storage)
         self.notes = self._queue.notes

@@ -100,11 +100,6 @@ class Fetch:
         """Whether nothing is missing."""
         return not self.recovery.missing
 
-    @property
-    def heard_at(self) -> float:
-        """When a segment came last [s]."""
-        return self.pace.heard
-
     def begin_again(self) -> None:
         """Forget what was asked for: this end was away."""
         self.recovery.give_up()

@@ -160,10 +160,6 @@ class Sender:
         if (peer, number) in self._transfers:
             self._transfers[peer, number].forget_requests()
 
-    def close(self, peer: Peer, number: int) -> None:
-        """End a transfer."""
-        self._transfers.pop((peer, number), None)
-
     def request(self, received: Received, t: float) -> bool:
         """Take FILE_REQUEST at a time [s]; False if there is no such transfer."""
         values = received.values

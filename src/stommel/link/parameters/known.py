@@ -1,6 +1,7 @@
 """Parameters as the shore knows them, kept on its disk from one day to the next."""
 
 import json
+from math import isfinite
 from typing import Any, NamedTuple
 
 from stommel.files.storage import Storage, replace_whole
@@ -86,14 +87,18 @@ class KnownParameters:
             return
         told = {"format": _FORMAT, "sets": [_told(each) for each in self.sets.values()]}
         try:
-            replace_whole(self._storage, self._name, json.dumps(told, indent=1).encode())
+            replace_whole(self._storage, self._name, json.dumps(told, indent=1, allow_nan=False).encode())
         except OSError as error:
-            self.notes.append(f"{self._name}: cannot be kept: {error.strerror or error}")
+            note = f"{self._name}: cannot be kept: {error.strerror or error}"
+            if note not in self.notes:
+                self.notes.append(note)
 
 
 def _told(known: KnownSet) -> dict[str, Any]:
     described = [{**each._asdict(), "kind": int(each.kind)} for each in known.descriptions]
-    return {"component": known.component, "name": known.name, "descriptions": described, "values": list(known.values)}
+    # JSON has no word for what is no number: it is asked for anew
+    values = [value if value is not None and isfinite(value) else None for value in known.values]
+    return {"component": known.component, "name": known.name, "descriptions": described, "values": values}
 
 
 def _sets_of(told: Any) -> dict[int, KnownSet]:

@@ -15,7 +15,7 @@ from stommel.link.missions.waypoint_server import WaypointServer
 from stommel.link.parameters.server import ParameterServer
 from stommel.link.presence import Presence
 from stommel.link.rate import LineRate
-from stommel.link.service import VEHICLE_COMPONENT, Service
+from stommel.link.service import VEHICLE_COMPONENT
 from stommel.link.session import Session
 from stommel.link.signing.challenge import Challenge
 from stommel.link.signing.guard import Guard, PortGuard
@@ -69,8 +69,6 @@ class VehicleLink:
         Lets a mission be flown that was taken.
     files
         That the shore may see.
-    services
-        More of them.
     restart
         Starts the software anew; None where nobody would.
     bench
@@ -88,7 +86,6 @@ class VehicleLink:
         missions: MissionPort,
         fly: Callable[[StoredMission], None],
         files: FilePort,
-        services: tuple[Service, ...] = (),
         restart: Callable[[], None] | None = None,
         *,
         bench: bool = False,
@@ -121,7 +118,6 @@ class VehicleLink:
             ParameterServer(settings.system, self.parameters),
             OrdersServer(*me, missions, missions),
             WaypointServer(*me, missions, warn),
-            *services,
             self.telemetry,
             self._reports,
             self.statistics,

@@ -16,6 +16,7 @@ WORDS_ERRORS = {
 OPENS = {
     "files/opening.py": "the one place",
     "files/whole.py": "writes",
+    "files/folder_lock.py": "the folder itself, to lock it",
     "cli/__init__.py": "the null device",
     "compilation/cache.py": "the machine code that it keeps",
     "compilation/sources.py": "the package's own source",
@@ -23,7 +24,6 @@ OPENS = {
     "ocean/reading/classic.py": "after files/opening.py has looked at the file",
     "link/files/folder_disk.py": "received files and their journals",
     "files/folder_storage.py": "the vehicle's own disk",
-    "onboard/running/folders.py": "the lock of a vehicle's folders",
     "studies/study.py": "digest of ocean files that were read before",
     "studies/journal.py": "its lock",
     "studies/result.py": "what it has written itself",

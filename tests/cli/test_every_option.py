@@ -339,9 +339,30 @@ CASES: dict[str, dict[str, Case]] = {
     },
 }  # fmt: skip
 
+LINE = "--to, --key, --unsigned, --vehicle, --state, --within"
+"""What every verb of `stommel link` that speaks to a vehicle takes, and reads in one place."""
+
 ELSEWHERE = {
     "sitl fly": "tests/sitl: --log, --output, --plots, --track, --seed, --separate-nodes, --speed, --no-live, "
-    "--parameters",
+    "--parameters; tests/cli/test_link_with_keys: --link, --key",
+    **{
+        f"link {verb}": f"tests/cli/test_link_story and test_link_refusals: {LINE}{own}"
+        for verb, own in {
+            "status": ", --seconds",
+            "params list": "",
+            "params get": "",
+            "params set": "",
+            "mission show": "",
+            "mission upload": ", --only-check",
+            "mission download": ", --force",
+            "mission roll-back": "",
+            "files list": "",
+            "files get": ", --release",
+            "files put": "",
+            "command send": ", --when, --expires, --yes",
+            "command follow": ", --cancel",
+        }.items()
+    },
     "sitl stand-in": "tests/sitl/test_real_ports.py: --ports, --channel, --seconds, --parameters; "
     "tests/sitl/test_link_on_real_ports.py: --link",
     "vehicle run": "tests/sitl/test_real_ports.py: --mission, --start, --seconds; "

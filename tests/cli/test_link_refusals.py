@@ -1,114 +1,109 @@
-"""`stommel link` without a vehicle: what cannot be is one line and status 2, and damage is told.
-
-Oracle: the rules of errors (`stommel.cli`), and what was put into the folders by hand.
-"""
+"""`stommel link` where nobody answers, or nothing can be asked: exit status 2, one line that says what to do."""
 
 import socket
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+import typer
 
-from stommel.link.frames import frame_bytes
-from stommel.link.signing.key_file import KeyFile, new_keys
-from stommel.messages.mavlink import message_named
-from tests.support.command import Outcome, run_here
+from stommel.cli.app import app
+from tests.cli.afloat_link import new_key
+from tests.cli.test_bad_input import refused
+from tests.cli.test_terminal_equals_json import leaves
+from tests.support.command import Command
 
-NOBODY = ("--to", "tcp:127.0.0.1:9", "--within", "0.1")
-
-
-def refused(folder: Path, *arguments: object) -> str:
-    """The one line of an error."""
-    found = run_here(folder, "link", *arguments, *NOBODY)
-    assert (found.status, found.out) == (2, "")
-    (line,) = found.err.splitlines()
-    return line
-
-
-@pytest.mark.parametrize("state", ["there", "there/below"])
-@pytest.mark.parametrize("signed", [False, True])
-def test_state_folder_that_cannot_be(tmp_path: Path, state: str, *, signed: bool) -> None:
-    (tmp_path / "there").write_text("a file")
-    KeyFile(tmp_path / "a.key").write(new_keys(1, 1.8e9))
-    who = ("--key", "a.key") if signed else ("--unsigned",)
-    line = refused(tmp_path, "status", *who, "--state", state)
-    assert line == f"error: {state}/vehicle-1: cannot be written: Not a directory"
+NOWHERE = ("--to", "tcp:127.0.0.1:1")
+LOCAL = ("link command list", "link key new", "link key show", "link key check")
+"""Verbs that speak to no vehicle."""
+ARGUMENTS = {
+    "link params get": ("A",), "link params set": ("A", "1"), "link mission upload": ("orders.toml",),
+    "link mission download": ("o.toml",), "link files get": ("log/1.log", "1.log"), "link files put": ("notes.txt",),
+    "link command send": ("hold",),
+}  # fmt: skip
+SPEAKING = [
+    verb for path, _ in leaves(typer.main.get_command(app))
+    if (verb := " ".join(path)).startswith("link ") and verb not in LOCAL
+]  # fmt: skip
 
 
-def follow(folder: Path, *arguments: object) -> Outcome:
-    return run_here(folder, "link", "command", "follow", "--unsigned", "--state", "state", *NOBODY, *arguments)
+@pytest.fixture(autouse=True)
+def _files(tmp_path: Path, stommel: Command) -> None:
+    (tmp_path / "notes.txt").write_text("hello")
+    if not (tmp_path / "orders.toml").exists():
+        assert stommel("orders", "pool_trial", "--output", "orders.toml").status == 0
 
 
-def test_damaged_queue_of_commands_is_told_and_not_shown_as_empty(tmp_path: Path) -> None:
-    (tmp_path / "state" / "vehicle-1").mkdir(parents=True)
-    (tmp_path / "state" / "vehicle-1" / "commands").write_bytes(bytes(range(40)))
-    (note,) = follow(tmp_path, "--json").json["notes"]
-    assert note.startswith("commands: is damaged")
-    assert "note: commands: is damaged" in follow(tmp_path).out
+def call(verb: str) -> tuple[str, ...]:
+    return (*verb.split(), *ARGUMENTS.get(verb, ()))
 
 
-def test_commands_of_before_the_clock_was_set_back_are_told_as_taken_back(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    give = ("link", "command", "send", "hold", "--unsigned", "--state", "state", *NOBODY, "--json")
-    monkeypatch.setattr("time.time", lambda: 1.8e9)
-    given = run_here(tmp_path, *give)
-    assert given.status == 1
-    monkeypatch.setattr("time.time", lambda: 1.8e9 - 86_400.0)
-    found = follow(tmp_path, "--json").json
-    assert all(each["words"].startswith("taken back") for each in found["commands"])
-    assert [each["id"] for each in found["commands"]] == [given.json["id"]]
-    assert "clock is 86400 s behind" in found["notes"][0]
+@pytest.mark.parametrize("verb", SPEAKING)
+def test_every_verb_asks_for_key_address_and_folder(stommel: Command, tmp_path: Path, verb: str) -> None:
+    """In one place, so in the same words."""
+    begin = (*call(verb), "--state", "s")
+    refused(stommel(*begin, "--unsigned"), "--to")
+    refused(stommel(*begin, *NOWHERE), "--key: give the vehicle's key, or --unsigned")
+    refused(stommel(*begin, "--to", "radio", "--unsigned"), "--to = radio: must be one of serial:/dev/ttyUSB0:115200")
+    refused(stommel(*begin, *NOWHERE, "--key", "none.key"), "none.key: cannot be read: No such file or directory")
+    new_key(tmp_path, "seven.key", 7)
+    refused(stommel(*begin, *NOWHERE, "--key", "seven.key", "--unsigned"), "a key signs; leave out --unsigned")
+    other = stommel(*begin, *NOWHERE, "--key", "seven.key", "--vehicle", "8")
+    refused(other, "--vehicle: 8: seven.key is the key of vehicle 7")
+    refused(stommel(*begin, *NOWHERE, "--unsigned", "--within", "0"), "--within = 0: must be between 0.1 and")
+    refused(stommel(*call(verb), *NOWHERE, "--unsigned", "--state", "notes.txt"), "--state", "notes.txt")
 
 
-def test_commands_for_one_vehicle_are_not_those_of_another_in_the_same_folder(tmp_path: Path) -> None:
-    """Given ashore to vehicle 1 while it is away; whoever then speaks to vehicle 2 must not say it there."""
-    give = ("link", "command", "send", "hold", "--unsigned", "--state", "state", *NOBODY, "--json")
-    given = run_here(tmp_path, *give, "--vehicle", 1).json
-    assert follow(tmp_path, "--json", "--vehicle", 2).json["commands"] == []
-    assert [each["id"] for each in follow(tmp_path, "--json").json["commands"]] == [given["id"]]
+@pytest.mark.parametrize(
+    "verb", [verb for verb in SPEAKING if verb not in ("link command send", "link command follow")]
+)
+def test_nobody_there_is_one_line_after_the_time_that_was_given(stommel: Command, verb: str) -> None:
+    found = stommel(*call(verb), *NOWHERE, "--unsigned", "--state", "s", "--within", "0.3")
+    refused(found, "vehicle 1 was not heard within 0.3 s over tcp:127.0.0.1:1: refused: no program listens there")
+
+
+def test_a_command_to_nobody_stays_queued(stommel: Command) -> None:
+    """It was given: the next program with this folder sends it, while it has not expired."""
+    line = (*NOWHERE, "--unsigned", "--state", "s", "--within", "0.3", "--json")
+    found = stommel("link", "command", "send", "hold", *line)
+    assert (found.status, found.json["is_last"]) == (1, False)
+    (again,) = stommel("link", "command", "follow", *line).json["commands"]
+    assert again["id"] == found.json["id"]
 
 
 @contextmanager
-def saying(words: bytes) -> Iterator[str]:
-    """Address of a program that says the same again and again to whoever connects."""
+def peer(says: bytes) -> Iterator[str]:
+    """A program that says something to whoever connects, over and over; its address."""
     with socket.create_server(("127.0.0.1", 0)) as server:
+        server.settimeout(10.0)
+        ended = threading.Event()
 
         def talk() -> None:
-            try:
-                connected, _ = server.accept()
-                with connected:
-                    while True:
-                        connected.sendall(words)
-                        time.sleep(0.02)
-            except OSError:  # it has heard enough
-                return
+            connection, _ = server.accept()
+            with connection:
+                while not ended.wait(0.05):
+                    try:
+                        connection.sendall(says)
+                    except OSError:
+                        return
 
-        thread = threading.Thread(target=talk)
+        thread = threading.Thread(target=talk, daemon=True)
         thread.start()
         yield f"tcp:127.0.0.1:{server.getsockname()[1]}"
+        ended.set()
         thread.join(10.0)
 
 
-def status_of(folder: Path, address: str) -> str:
-    found = run_here(folder, "link", "status", "--to", address, "--unsigned", "--state", "state", "--within", "0.3")
-    assert (found.status, found.out) == (2, "")
-    return found.err
+def test_bytes_without_frames_are_named(stommel: Command) -> None:
+    """As from a modem at another speed."""
+    with peer(b"\x80\x1f\xfe\x00" * 50) as address:
+        found = stommel("link", "status", "--to", address, "--unsigned", "--state", "s", "--within", "1.5")
+    refused(found, "bytes came, but no frame in them: another speed of the port at the other end")
 
 
-def test_a_peer_of_mavlink_1_is_not_silence(tmp_path: Path) -> None:
-    """A HEARTBEAT of the old protocol, byte for byte from pymavlink."""
-    with saying(bytes.fromhex("fe09000101000000000016080004032001")) as address:
-        told = status_of(tmp_path, address)
-    assert "bytes came, but no sound frame of MAVLink 2" in told
-    assert "nothing came" not in told
-
-
-def test_a_peer_with_another_release_of_the_messages_is_named(tmp_path: Path) -> None:
-    kind = message_named("HEARTBEAT")
-    other = frame_bytes(kind._replace(crc_extra=kind.crc_extra ^ 1), kind.pack({"type": 12}), 1, 1, 0)
-    with saying(other) as address:
-        assert "the other end has another version of HEARTBEAT" in status_of(tmp_path, address)
+def test_a_silent_peer_is_named(stommel: Command) -> None:
+    with peer(b"") as address:
+        found = stommel("link", "status", "--to", address, "--unsigned", "--state", "s", "--within", "0.5")
+    refused(found, "nothing came; it is under water, out of reach, or its radio is off")

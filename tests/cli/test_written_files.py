@@ -81,6 +81,13 @@ NEW = ("vehicle new", "link key new")
 ELSEWHERE = {
     "sitl campaign": "tests/sitl/test_campaign_command: a journal, and what fails",
     "sitl stand-in": "tests/sitl/test_real_ports: ports that go when it ends",
+    "link files get": "tests/cli/test_link_story, with all that `stommel link` keeps by --state",
+    "link mission download": "as link files get",
+    "link status": "as link files get",
+    **{f"link params {verb}": "as link files get" for verb in ("list", "get", "set")},
+    **{f"link mission {verb}": "as link files get" for verb in ("show", "upload", "roll-back")},
+    **{f"link files {verb}": "as link files get" for verb in ("list", "put")},
+    **{f"link command {verb}": "as link files get" for verb in ("send", "follow")},
 }
 """Verbs that write, but not what they were asked for at their end."""
 
@@ -90,9 +97,12 @@ SAVE = {
     "--apply": (".toml",),
     "--track": (".geojson", ".kml"),
     "--log": (),
+    "--state": (),
     "--ports": (),
+    "--parameters": (),
     "FILE": (".toml",),
     "KEYFILE": (".key",),
+    "COPY": (),
 }
 SAVE_AS = {
     "design": (".html",),
@@ -125,7 +135,8 @@ def outputs(command: Any, *metavars: str) -> list[str]:
     ]
 
 
-OUTPUTS = [(verb, option) for verb, command in verbs() for option in outputs(command, "FILE", "FOLDER", "KEYFILE")]
+METAVARS = ("FILE", "FOLDER", "KEYFILE", "COPY")
+OUTPUTS = [(verb, option) for verb, command in verbs() for option in outputs(command, *METAVARS)]
 FOLDERS = {(verb, option) for verb, command in verbs() for option in outputs(command, "FOLDER")}
 
 
@@ -205,9 +216,11 @@ def test_a_verb_that_wrote_nothing_says_so(ask: Ask, folder: Path, verb: str) ->
 def refusal(verb: str, option: str, text: str) -> str:
     """What a verb answers to an output, asked about a vehicle, mission or log that does not exist."""
     # the output is looked at first: nothing else would be found wrong before the work begins
-    place = [text] if option in ("FILE", "KEYFILE") else [option, text]
-    required = {"root-locus": list(LOCUS[2:])}.get(verb, [])
-    subject = [] if option in ("FILE", "KEYFILE") else ["there-is-no-such-thing"]
+    place = [text] if option in METAVARS else [option, text]
+    required = {"root-locus": list(LOCUS[2:]), "link files get": ["log/1.log"] if option == "COPY" else []}.get(
+        verb, []
+    )
+    subject = [] if option in METAVARS else ["there-is-no-such-thing"]
     with pytest.raises(OutputError) as caught:
         app([*verb.split(), *subject, *required, *place], standalone_mode=False)
     return str(caught.value)
@@ -243,7 +256,10 @@ def test_paths_that_cannot_be_written_are_refused_before_any_work(folder: Path, 
     assert sorted(path.name for path in folder.iterdir() if path.is_dir()) == ["folder"]
 
 
-@pytest.mark.parametrize(("verb", "option"), [pair for pair in OUTPUTS if pair not in FOLDERS])
+@pytest.mark.parametrize(
+    ("verb", "option"),
+    [(verb, option) for verb, option in OUTPUTS if (verb, option) not in FOLDERS and SAVE.get(option) != ()],
+)
 def test_another_ending_is_refused_with_those_that_are_allowed(folder: Path, verb: str, option: str) -> None:
     allowed = SAVE.get(option) or SAVE_AS[verb]
     for name in ("hull.v2", "plot", "plot.jpeg", "plot.", allowed[0], f"plot{allowed[0]}.old"):

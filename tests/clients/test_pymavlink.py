@@ -26,8 +26,8 @@ os.environ.setdefault("MAVLINK20", "1")
 from pymavlink import mavutil
 from pymavlink.dialects.v20 import common
 
-PATIENCE = 40.0
-"""For anything that is asked for, and for the vehicle to begin [s]."""
+PATIENCE = 120.0
+"""For anything that is asked for, and for the vehicle to begin [s]: without machine code it compiles a minute."""
 
 
 @contextmanager
@@ -38,7 +38,7 @@ def in_the_loop(folder: Path, key: Path) -> Iterator[int]:
         process = subprocess.Popen([PROGRAM, "sitl", scenario_in(folder), *options], stderr=said, cwd=folder)
         try:
             end = time.monotonic() + PATIENCE
-            while not (found := re.search(r"radio: \S*:(\d+)\n", (folder / "said.txt").read_text())):
+            while not (found := re.search(r"shore: \S*:(\d+)\n", (folder / "said.txt").read_text())):
                 assert process.poll() is None, (folder / "said.txt").read_text()
                 assert time.monotonic() < end, "the vehicle is not on the air"
                 time.sleep(0.1)

@@ -28,7 +28,7 @@ KeyOption = Annotated[
     Path | None,
     typer.Option(
         "--key",
-        metavar="FILE",
+        metavar="KEY",
         help="Key of the vehicle (`stommel link key new`); without it, whoever connects commands.",
     ),
 ]

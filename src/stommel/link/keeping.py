@@ -1,13 +1,10 @@
-"""Small files that are replaced as a whole, and know when they are damaged."""
+"""What JSON can say, in small files that are replaced as a whole and know when they are damaged."""
 
-import hashlib
 import json
 from typing import Any
 
+from stommel.files.sealing import sealed, unsealed
 from stommel.files.storage import Storage, replace_whole
-
-MOST_BYTES = 1 << 20
-"""That are read of such a file."""
 
 
 class DamagedError(ValueError):
@@ -22,8 +19,8 @@ def keep(storage: Storage, name: str, content: object) -> None:
     OSError
         The disk does not keep it; what stood under the name still does.
     """
-    told = json.dumps(content, separators=(",", ":"), allow_nan=False).encode()
-    replace_whole(storage, name, _digest(told) + b" " + told)
+    told = json.dumps(content, separators=(",", ":"), allow_nan=False)
+    replace_whole(storage, name, sealed(told))
 
 
 def kept(storage: Storage, name: str) -> Any:
@@ -35,18 +32,14 @@ def kept(storage: Storage, name: str) -> Any:
         It cannot be read, or is damaged.
     """
     try:
-        digest, _, told = storage.read(name)[:MOST_BYTES].partition(b" ")
+        told = unsealed(storage.read(name))
     except FileNotFoundError:
         return None
     except OSError as error:
         raise DamagedError(f"{name}: cannot be read: {error.strerror or error}") from error
-    if digest != _digest(told):
+    if told is None:
         raise DamagedError(f"{name}: is damaged: its SHA-256 is another")
     try:
         return json.loads(told)
     except (ValueError, RecursionError) as error:
         raise DamagedError(f"{name}: is damaged: {error}") from error
-
-
-def _digest(told: bytes) -> bytes:
-    return hashlib.sha256(told).hexdigest().encode()

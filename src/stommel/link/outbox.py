@@ -104,9 +104,3 @@ class Outbox:
     def waiting(self) -> int:
         """Bytes of payload that wait."""
         return sum(self._bytes.values())
-
-    def clear(self) -> None:
-        """Forget all."""
-        for priority, queue in self._queues.items():
-            queue.clear()
-            self._bytes[priority] = 0

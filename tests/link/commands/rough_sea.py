@@ -185,7 +185,7 @@ class Voyage:
             self.server.take(received, own)
         self.server.poll(own, self._outbox)
         if self.truth.submerged:
-            self._outbox.clear()
+            self._outbox = Outbox()
         self.down.send(self._outbox, t)
 
     def _shore_step(self) -> None:
@@ -201,7 +201,7 @@ class Voyage:
         self._operate(self.client, t)
         self.client.poll(t, self._outbox)
         if self.truth.submerged:
-            self._outbox.clear()
+            self._outbox = Outbox()
         self.up.send(self._outbox, self.truth.t)
         self._listen(self.client)
 
@@ -248,7 +248,7 @@ class Voyage:
         except PowerCutError:
             killed = True
         if killed:
-            self._outbox.clear()
+            self._outbox = Outbox()
             self.kills += 1
             found = disk.after_power_cut(self.draw, keeps_unsynced=False)
             rests = self.truth.t + self.draw.uniform(0.0, 15.0)

@@ -12,7 +12,7 @@ from stommel.link.files.received_file import (
     SYNC_BYTES,
     Identity,
     ReceivedFile,
-    ReceptionError,
+    ReceivedFileError,
     WrongSumError,
     identity_on_disk,
 )
@@ -139,7 +139,7 @@ def test_a_full_disk_is_named_and_the_part_is_kept() -> None:
     disk = MemoryDisk(room=3000)
     file = ReceivedFile(disk, "a.log", IDENTITY)
     with pytest.raises(
-        ReceptionError, match=r"a.log: No space left on device; \d+ of 5000 bytes are kept in a.log.part"
+        ReceivedFileError, match=r"a.log: No space left on device; \d+ of 5000 bytes are kept in a.log.part"
     ):
         write_all(file)
     kept = file.received.bytes
@@ -173,7 +173,7 @@ def test_wrong_bytes_never_get_the_name() -> None:
 
 
 def test_not_whole_is_not_finished() -> None:
-    with pytest.raises(ReceptionError, match="5000 of 5000 bytes are missing"):
+    with pytest.raises(ReceivedFileError, match="5000 of 5000 bytes are missing"):
         ReceivedFile(MemoryDisk(), "a.log", IDENTITY).finish()
 
 
@@ -204,7 +204,7 @@ def test_a_file_that_is_there_already_costs_nothing() -> None:
 
 
 def test_a_size_that_cannot_be_is_refused() -> None:
-    with pytest.raises(ReceptionError, match="size = 4294967295"):
+    with pytest.raises(ReceivedFileError, match="size = 4294967295"):
         ReceivedFile(MemoryDisk(), "a", Identity("a", 0xFFFFFFFF, ""))
 
 
@@ -227,6 +227,6 @@ def test_a_link_in_the_folder_is_not_followed(tmp_path: Path) -> None:
     folder = tmp_path / "f"
     disk = FolderDisk(folder)
     (folder / "a.log.part").symlink_to(target)
-    with pytest.raises(ReceptionError, match="symbolic links"):
+    with pytest.raises(ReceivedFileError, match="symbolic links"):
         receive(disk)
     assert target.read_bytes() == b"precious"

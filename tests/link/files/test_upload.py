@@ -6,6 +6,7 @@ import random
 import pytest
 
 from stommel.link.channel.settings import ChannelSettings
+from stommel.link.files.download import Download
 from stommel.link.files.listing import Listing
 from stommel.link.files.loss import MOST_SEGMENT
 from stommel.link.files.progress import State
@@ -15,7 +16,8 @@ from stommel.link.files.server import FileServer
 from stommel.link.files.upload import Upload
 from stommel.link.outbox import Outbox
 from stommel.link.service import Received
-from tests.link.files.fakes import MemoryFiles, noise
+from stommel.link.traffic import Traffic
+from tests.link.files.fakes import MemoryDisk, MemoryFiles, noise
 from tests.link.files.pair import SHORE, VEHICLE, Pair, is_over
 
 DATA = noise(20_000, 31)
@@ -173,3 +175,62 @@ def test_a_folder_is_listed(loss: float) -> None:
     pair.ask(none)
     assert pair.run(is_over((none,)), 100.0)
     assert (none.state, none.reason) == (State.REFUSED, "/none: file not found")
+
+
+def test_a_file_that_was_removed_aboard_is_sent_again() -> None:
+    """That it came once does not make it be there; what was refused may be taken when there is room."""
+    files, pair = MemoryFiles(), Pair(CLEAN)
+    pair.serve(FileServer(*VEHICLE, files))
+    for change in (lambda: None, lambda: files.remove(("missions", "m"))):
+        change()
+        upload = Upload(SHORE, VEHICLE, DATA, "missions/m")
+        pair.ask(upload)
+        assert pair.run(is_over((upload,)), 30.0)
+        assert upload.state is State.WHOLE
+        assert files["missions/m"] == DATA
+
+
+def test_an_upload_that_was_refused_may_be_taken_later() -> None:
+    files, pair = MemoryFiles(), Pair(CLEAN)
+    files.refuse_received = "mission: waypoint 3 lies on land"
+    pair.serve(FileServer(*VEHICLE, files))
+    for refused, state in ((files.refuse_received, State.REFUSED), (None, State.WHOLE)):
+        files.refuse_received = refused
+        upload = Upload(SHORE, VEHICLE, DATA, "missions/m")
+        pair.ask(upload)
+        assert pair.run(is_over((upload,)), 60.0)
+        assert upload.state is state
+        pair.ask()
+        pair.wait(25.0)
+
+
+def test_a_folder_is_listed_as_it_is_now() -> None:
+    """The answer to the same question of before is none, nor one to a question for another folder."""
+    files, pair = MemoryFiles(), Pair(CLEAN)
+    pair.serve(FileServer(*VEHICLE, files))
+    for names in ([], ["m"]):
+        for name in names:
+            files.files["missions", name] = b"1234"
+        listing = Listing(SHORE, VEHICLE, "/missions")
+        pair.ask(listing)
+        assert pair.run(is_over((listing,)), 30.0)
+        assert [entry.name for entry in listing.entries] == names
+
+
+@pytest.mark.parametrize("loss", [0.0, 0.3])
+def test_both_ends_count_what_was_of_use_and_what_was_sent_again(loss: float) -> None:
+    """Oracle: the sizes of the files; without loss nothing is sent again."""
+    files, pair = MemoryFiles({"logs/a.log": DATA}), Pair(ChannelSettings(loss=loss, whole_frames=True))
+    aboard, ashore, disk = Traffic(), Traffic(), MemoryDisk()
+    pair.serve(FileServer(*VEHICLE, files, aboard))
+    transfers = (
+        Download(SHORE, VEHICLE, "logs/a.log", disk, "a.log", traffic=ashore),
+        Upload(SHORE, VEHICLE, DATA[:5000], "missions/m", traffic=ashore),
+    )
+    pair.ask(*transfers)
+    assert pair.run(is_over(transfers), 60.0)
+    assert (ashore.new_bytes, aboard.new_bytes) == (len(DATA), 5000)
+    assert (aboard.sent_bytes - aboard.again_bytes, ashore.sent_bytes - ashore.again_bytes) == (len(DATA), 5000)
+    assert (aboard.retransmit_ratio > 0.1) is (loss > 0.0)
+    assert loss > 0.0 or aboard.again_bytes == ashore.again_bytes == 0
+    assert ashore.goodput(pair.t) > 0.0

@@ -1,5 +1,7 @@
 """Parameter lists over a bad line. Oracle: the values that the vehicle holds."""
 
+import json
+import math
 import random
 
 import pytest
@@ -7,7 +9,7 @@ import pytest
 from stommel.link.endings import Ending
 from stommel.link.parameters.client import ParameterClient
 from stommel.link.parameters.known import KnownParameters
-from stommel.link.parameters.port import MOTION_COMPONENT, ParameterState
+from stommel.link.parameters.port import COORDINATOR_COMPONENT, MOTION_COMPONENT, ParameterState
 from tests.link.line import Line, losing, losing_number
 from tests.link.parameters.vehicle import NAMES, Vehicle, joined, read_values
 from tests.onboard.coordination.disk import Disk
@@ -181,3 +183,18 @@ def test_a_full_disk_is_noted() -> None:
     client, line = joined(Vehicle(), KnownParameters(1, disk))
     assert refreshed(client, line) == WHOLE
     assert any("cannot be kept" in note for note in client.known.notes)
+
+
+def test_a_value_that_is_no_number_is_kept_as_not_known() -> None:
+    """JSON has no word for it, and other programs would not read the file."""
+    disk, vehicle = Disk(), Vehicle()
+    vehicle.values[COORDINATOR_COMPONENT][1] = math.nan
+    client, line = joined(vehicle, KnownParameters(1, disk))
+    assert set(refreshed(client, line).values()) == {Ending.WHOLE}
+    told = disk.read("parameters-1.json")
+    assert json.loads(told, parse_constant=pytest.fail)["sets"][0]["values"][1] is None
+    assert KnownParameters(1, disk).sets[COORDINATOR_COMPONENT].values[1] is None
+    for _ in range(3):
+        disk.broken = True
+        client.known.keep()
+    assert len(client.known.notes) == 1, "the same again is no news"

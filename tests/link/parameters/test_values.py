@@ -10,7 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stommel.link.endings import Ending
-from stommel.link.parameters.encoding import LEAST_INT, MOST_INT, ParameterError, check_description, float_of, value_of
+from stommel.link.parameters.encoding import (
+    LEAST_INT,
+    MOST_INT,
+    ParameterValueError,
+    check_description,
+    float_of,
+    value_of,
+)
 from stommel.link.parameters.port import MOTION_COMPONENT, Description, ParameterKind, ParameterState
 from stommel.link.parameters.server import ParameterServer
 from stommel.link.service import Received
@@ -165,7 +172,7 @@ def test_whole_numbers_survive_the_float(value: int) -> None:
     ],
 )
 def test_what_cannot_be_said_is_refused(described: Description, words: str) -> None:
-    with pytest.raises(ParameterError, match=words):
+    with pytest.raises(ParameterValueError, match=words):
         check_description(described, "motion node")
 
 

@@ -171,3 +171,14 @@ def test_over_a_bad_line_into_the_store() -> None:
     active = MissionStore(disk, LIMITS).active
     assert active is not None
     assert (active.number, active.orders.dives.depth, len(active.orders.waypoints)) == (2, 75.0, 3)
+
+
+def test_a_mission_that_the_disk_has_damaged_is_no_file_and_hides_no_other() -> None:
+    disk = Disk()
+    store, port, _ = ported(disk)
+    assert list(port.take_plan(WaypointPlan(PLACES, None, None))) == []
+    assert set(port.texts()) == {"active.orders", "previous.orders"}
+    assert store.previous is not None
+    damaged = next(name for name in disk.sizes() if f"{store.previous.number:}" in name and "mission" in name)
+    disk.remove(damaged)
+    assert set(port.texts()) == {"active.orders"}

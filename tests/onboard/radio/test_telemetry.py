@@ -1,14 +1,19 @@
 """What the vehicle tells unasked. Oracles: the rules in words, and the names of alarms and start checks."""
 
+import math
+from types import SimpleNamespace
+
 import pytest
 from pymavlink.dialects.v20 import common
 
 from stommel.link.outbox import Outbox
+from stommel.messages.mavlink import message_named
 from stommel.onboard.coordination.failsafes import FAILSAFES, Reaction
 from stommel.onboard.coordination.safety import ActiveAlarm, SafetyState
 from stommel.onboard.coordination.start_checks import START_CHECKS
 from stommel.onboard.radio.sensor_health import SENSORS, sensor_health
 from stommel.onboard.radio.telemetry import WARNING, Telemetry
+from stommel.onboard.radio.telemetry_table import TELEMETRY
 
 SOUND = SafetyState((), Reaction.REPORT, (), (), "", (), submerged=False)
 GPS, COMPASS = common.MAV_SYS_STATUS_SENSOR_GPS, common.MAV_SYS_STATUS_SENSOR_3D_MAG
@@ -60,3 +65,20 @@ def test_what_is_unproven_or_has_an_alarm_is_not_sound() -> None:
 def test_checks_and_alarms_of_sensors_are_those_of_the_tables(row) -> None:  # type: ignore[no-untyped-def]
     assert set(row.checks) <= {check.name for check in START_CHECKS}
     assert set(row.alarms) <= {failsafe.name for failsafe in FAILSAFES}
+
+
+@pytest.mark.parametrize(("psi", "heading", "course"), [(math.nan, 0, 0xFFFF), (-0.001, 0, 35994), (3.0, 172, 17189)])
+def test_a_silent_compass_and_pressure_sensor_end_no_message(psi: float, heading: int, course: int) -> None:
+    """Their readings become no numbers (assessment.situation_of); UINT16_MAX is an unknown `hdg` in the dialect."""
+    readings = SimpleNamespace(psi=psi, theta=math.nan, down_b2=0.0, down_b3=1.0, depth=math.nan)
+    navigation = SimpleNamespace(latitude=0.1, longitude=0.2, current_north=0.1, current_east=0.0)
+    view = SimpleNamespace(navigation=navigation, situation=SimpleNamespace(readings=readings))
+    seen = SimpleNamespace(t=1.0, view=view, memory={"path_speed": 0.3, "vertical_speed": 0.1})
+    rows = {row.name: row for row in TELEMETRY}
+    found = {}
+    for name in ("VFR_HUD", "GLOBAL_POSITION_INT", "ATTITUDE"):
+        fields = rows[name].fields(seen)  # type: ignore[arg-type]
+        assert fields is not None
+        found[name] = message_named(name).unpack(message_named(name).pack(fields))
+    assert found["VFR_HUD"]["heading"] == heading
+    assert found["GLOBAL_POSITION_INT"]["hdg"] == course

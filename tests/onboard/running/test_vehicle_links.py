@@ -260,3 +260,18 @@ def test_a_file_comes_home_and_another_goes_out(tmp_path: Path) -> None:
     assert (tmp_path / "home" / "active.orders").read_bytes() == orders(tmp_path)
     assert upload.state.is_over
     assert (tmp_path / "inbox" / "note.txt").read_bytes() == b"look at the compass"
+    ashore, aboard = shore.end.statistics.traffic, rig.vehicle.links.radio.link.statistics.traffic
+    assert (ashore.new_bytes, aboard.new_bytes) == (len(orders(tmp_path)), len(b"look at the compass"))
+    assert aboard.sent_bytes - aboard.again_bytes == ashore.new_bytes
+
+
+def test_a_decision_is_told_once_however_often_it_is_looked_at(tmp_path: Path) -> None:
+    """While the coordinator sleeps its last one stands: its alarms are not new, nor the outcomes of its writings."""
+    rig, _ = met(tmp_path, with_key(tmp_path), signs=True)
+    link, told = rig.vehicle.links.radio.link, []
+    link.telemetry.observe = lambda seen: told.append(seen.view)  # type: ignore[method-assign]
+    for later in (0.1, 5.0, 60.0):
+        link.observe(rig.vehicle.coordinator.view.t + later)  # type: ignore[union-attr]
+    assert told == []
+    rig.vehicle.run(5.0)
+    assert len(told) == len({id(view) for view in told}) > 1

@@ -2,6 +2,7 @@
 
 import pytest
 
+from stommel.link.channel.settings import ChannelSettings
 from stommel.simulation.scenario.mission import Mission
 from stommel.sitl.radio.air import LOOKS
 from stommel.sitl.system import System
@@ -13,10 +14,14 @@ class Counted:
     def __init__(self, says: bytes = b"") -> None:
         self.asked = 0
         self.heard = b""
+        self.times: list[float] = []
+        """At which something was heard."""
         self._says, self._said = says, -1.0
 
     def take(self, data: bytes, t: float) -> None:
         self.heard += data
+        if data:
+            self.times.append(t)
 
     def poll(self, t: float, room: int) -> bytes:
         self.asked += 1
@@ -26,9 +31,11 @@ class Counted:
         return self._says
 
 
-def flown(trial: Mission, ashore: Counted | None, steps: int = 60) -> tuple[System, int]:
+def flown(
+    trial: Mission, ashore: Counted | None, steps: int = 60, radio: ChannelSettings | None = None
+) -> tuple[System, int]:
     """A system at the surface, and how often its vehicle was asked."""
-    system = System(trial, shore=ashore)
+    system = System(trial, shore=ashore, radio=radio)
     asked = 0
     poll = system.link.poll
 
@@ -62,6 +69,14 @@ def test_what_is_said_in_a_step_is_heard_in_it(trial: Mission) -> None:
     assert len(ashore.heard) == counts.arrived_bytes
     assert counts.arrived_bytes + 172 * counts.lost >= counts.sent_bytes - 172
     assert system.air.channel.next_event() == float("inf"), "bytes are left behind on their way"
+
+
+def test_a_step_is_not_over_while_something_is_on_its_way(trial: Mission) -> None:
+    """What the vehicle says at the beginning of a step is there half a second later, not with the next step."""
+    ashore = Counted()
+    flown(trial, ashore, radio=ChannelSettings(latency=0.5))
+    assert len(ashore.times) > 20
+    assert all(0.45 < t % 1.0 < 0.95 for t in ashore.times)
 
 
 def test_under_water_nobody_is_asked(trial: Mission) -> None:

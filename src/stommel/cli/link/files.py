@@ -19,6 +19,7 @@ from stommel.cli.link.line import (
 )
 from stommel.cli.options import JsonOption
 from stommel.cli.output import show_table, show_values
+from stommel.cli.paths import file_parser
 
 if TYPE_CHECKING:
     from stommel.cli.link.line import Line
@@ -33,7 +34,7 @@ LONG = 86_400.0
 def list_folder(
     to: ToOption,
     folder: Annotated[
-        str, typer.Argument(metavar="FOLDER", help="log, missions or inbox; all of them if left out.")
+        str, typer.Argument(metavar="PATH", help="log, missions or inbox; all of them if left out.")
     ] = "",
     key: KeyOption = None,
     unsigned: UnsignedOption = False,
@@ -67,7 +68,7 @@ def _listed(line: "Line", folder: str, within: float) -> list[Any]:
     line.until(lambda: listing.state.is_over, within)
     line.end.drop(listing)
     if listing.state is not State.WHOLE:
-        raise LinkError(f"{folder or '/'}: {listing.reason or f'not listed within {within:g} s'}")
+        raise LinkError(listing.reason or f"{folder or '/'}: not listed within {within:g} s")
     return list(listing.entries)
 
 
@@ -78,7 +79,7 @@ def _show_list(row: dict[str, Any]) -> None:
 @files_app.command("get")
 def get(
     path: Annotated[str, typer.Argument(metavar="PATH", help="Of the file aboard, as `files list` shows it.")],
-    output: Annotated[Path, typer.Argument(metavar="FILE", help="Where it is written.")],
+    output: Annotated[Path, typer.Argument(metavar="COPY", parser=file_parser("COPY"), help="The file to write.")],
     to: ToOption,
     key: KeyOption = None,
     unsigned: UnsignedOption = False,
@@ -109,10 +110,8 @@ def fetched(line: "Line", path: str, output: Path, within: float) -> dict[str, A
     StommelError
         It did not come whole; what came is kept beside its place.
     """
-    from stommel.files.whole import require_file
     from stommel.link.files.folder_disk import FolderDisk
 
-    require_file(output)
     disk = FolderDisk(output.parent)
     try:
         download = line.end.download(path, disk, output.name)
@@ -165,7 +164,7 @@ def _released(line: "Line", row: dict[str, Any], within: float) -> bool:
 
 @files_app.command("put")
 def put(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="To send.")],
+    file: Annotated[Path, typer.Argument(metavar="SOURCE", help="The file to send.")],
     to: ToOption,
     key: KeyOption = None,
     unsigned: UnsignedOption = False,

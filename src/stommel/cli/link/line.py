@@ -5,13 +5,14 @@ import random
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from stommel.cli.numbers import count_option, number_option
+from stommel.cli.paths import folder_parser
 from stommel.cli.status import INTERRUPTED
 from stommel.errors import StommelError
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from stommel.files.folder_storage import FolderStorage
     from stommel.link.shore.shore_end import ShoreEnd
     from stommel.link.signing.guard import Guard
+    from stommel.link.signing.key_file import KeyFile
     from stommel.link.transports.transport import Transport
 
 LOOKS_EVERY = 0.01
@@ -38,7 +40,7 @@ ToOption = Annotated[
 KeyOption = Annotated[
     Path | None,
     typer.Option(
-        "--key", metavar="FILE", envvar="STOMMEL_LINK_KEY", help="Key of the vehicle (`stommel link key new`)."
+        "--key", metavar="KEY", envvar="STOMMEL_LINK_KEY", help="Key of the vehicle (`stommel link key new`)."
     ),
 ]
 UnsignedOption = Annotated[
@@ -52,6 +54,7 @@ StateOption = Annotated[
     typer.Option(
         "--state",
         metavar="FOLDER",
+        parser=folder_parser("--state"),
         help="Folder of what must outlive the program, by vehicle: commands, stamps, parameters.",
     ),
 ]
@@ -131,9 +134,8 @@ def line_to(to: str, key: Path | None, unsigned: bool, vehicle: int | None, stat
     from stommel.link.transports.address import read_address
     from stommel.link.transports.opening import open_transport
 
-    guard, number = _guard(key, unsigned, vehicle, state)
+    keys, number = _keys(key, unsigned, vehicle)
     address = read_address(to, "--to")
-    storage = _storage(state, number)
     began, utc = time.monotonic(), time.time()
 
     def now() -> float:
@@ -142,49 +144,64 @@ def line_to(to: str, key: Path | None, unsigned: bool, vehicle: int | None, stat
 
     system = random.SystemRandom()
     settings = ShoreSettings(number, float(address.bit_rate or FAST), half_duplex=address.bit_rate is not None)
-    transport = open_transport(address)
-    try:
-        end = ShoreEnd(settings, guard, system, os.urandom, storage, now())
+    with _storage(state, number) as storage:
+        guard = _guard(keys, storage)
+        transport = open_transport(address)
         try:
-            yield Line(end, transport, now)
-        except LinkError as error:
-            raise LinkError(f"{error}; {end.session.versions}" if end.session.versions else str(error)) from None
-    except KeyboardInterrupt:
-        typer.echo("interrupted; what has come is kept, and the same command goes on from there", err=True)
-        raise typer.Exit(INTERRUPTED) from None
-    finally:
-        transport.close()
+            end = ShoreEnd(settings, guard, system, os.urandom, storage, now())
+            try:
+                yield Line(end, transport, now)
+            except LinkError as error:
+                raise LinkError(f"{error}; {end.session.versions}" if end.session.versions else str(error)) from None
+        except KeyboardInterrupt:
+            typer.echo("interrupted; what has come is kept, and the same command goes on from there", err=True)
+            raise typer.Exit(INTERRUPTED) from None
+        finally:
+            transport.close()
 
 
-def _guard(key: Path | None, unsigned: bool, vehicle: int | None, state: Path | None) -> tuple["Guard", int]:
-    """The guard, and the vehicle that it is for."""
-    from stommel.link.service import SHORE_SYSTEM
-    from stommel.link.signing.guard import Guard
+def _keys(key: Path | None, unsigned: bool, vehicle: int | None) -> tuple["KeyFile | None", int]:
+    """The key file, if frames are signed, and the vehicle."""
     from stommel.link.signing.key_file import KeyFile
 
     if (key is None) != unsigned:
         told = "give the vehicle's key, or --unsigned for a vehicle that was told to believe everybody"
         raise typer.BadParameter(told if key is None else "a key signs; leave out --unsigned", param_hint="--key")
     if key is None:
-        return Guard.unsigned(SHORE_SYSTEM), vehicle or 1
+        return None, vehicle or 1
     file = KeyFile(key)
     number = file.read().vehicle
     if vehicle not in (None, number):
         raise typer.BadParameter(f"{vehicle}: {key} is the key of vehicle {number}", param_hint="--vehicle")
-    return Guard(SHORE_SYSTEM, file, _storage(state, number), time.time(), os.urandom), number
+    return file, number
 
 
-def _storage(state: Path | None, vehicle: int) -> "FolderStorage":
-    """The folder of the terminal's memory, opened."""
+def _guard(keys: "KeyFile | None", storage: "FolderStorage") -> "Guard":
+    from stommel.link.service import SHORE_SYSTEM
+    from stommel.link.signing.guard import Guard
+
+    if keys is None:
+        return Guard.unsigned(SHORE_SYSTEM)
+    return Guard(SHORE_SYSTEM, keys, storage, time.time(), os.urandom)
+
+
+@contextmanager
+def _storage(state: Path | None, vehicle: int) -> Iterator["FolderStorage"]:
+    """The folder of what must outlive the program, which no other program has meanwhile."""
+    from stommel.files.folder_lock import FolderInUseError, locked
     from stommel.files.folder_storage import FolderStorage
-    from stommel.files.whole import require_folder
 
     folder = _state_folder(state, vehicle)
-    require_folder(folder)
-    try:
-        return FolderStorage(folder)
-    except OSError as error:
-        raise LinkError(f"--state = {folder}: {error.strerror or error}; must be a folder to write in") from error
+    with ExitStack() as held:
+        try:
+            storage = FolderStorage(folder)
+            held.enter_context(locked(folder))
+        except FolderInUseError:
+            told = "another `stommel link` speaks to this vehicle; wait for its end, or give another folder by --state"
+            raise LinkError(f"{folder}: {told}") from None
+        except OSError as error:
+            raise LinkError(f"--state = {folder}: cannot be used: {error.strerror or error}") from None
+        yield storage
 
 
 def _state_folder(state: Path | None, vehicle: int) -> Path:

@@ -21,7 +21,7 @@ from stommel.cli.link.line import (
 )
 from stommel.cli.options import ForceOption, JsonOption
 from stommel.cli.output import show_table, show_values
-from stommel.cli.paths import refuse_existing
+from stommel.cli.paths import file_parser, refuse_existing
 
 if TYPE_CHECKING:
     from stommel.cli.link.line import Line
@@ -97,7 +97,9 @@ def upload(
 
 @mission_app.command("download")
 def download(
-    output: Annotated[Path, typer.Argument(metavar="FILE", help="Where the orders are written, .toml.")],
+    output: Annotated[
+        Path, typer.Argument(metavar="FILE", parser=file_parser("FILE", ".toml"), help="The file to write, .toml.")
+    ],
     to: ToOption,
     key: KeyOption = None,
     unsigned: UnsignedOption = False,
@@ -112,9 +114,7 @@ def download(
     Example: stommel link mission download aboard.toml --to tcp:127.0.0.1:5760 --unsigned
     """
     from stommel.cli.link.files import fetched
-    from stommel.files.whole import require_file
 
-    require_file(output)
     refuse_existing(output, force)
     with line_to(to, key, unsigned, vehicle, state) as line:
         line.require_vehicle(within)

@@ -1,5 +1,6 @@
 """`stommel link params list|get|set`: parameters of a vehicle and its nodes."""
 
+from operator import attrgetter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -79,7 +80,7 @@ def _row(line: "Line") -> dict[str, Any]:
                 "reason": ended[known.component].words if known.component in ended else "was not asked",
                 "parameters": [_parameter(known, k) for k in range(len(known.descriptions))],
             }
-            for known in client.known.sets.values()
+            for known in sorted(client.known.sets.values(), key=attrgetter("component"))
         ]
         + [
             {
@@ -108,8 +109,8 @@ def _parameter(known: "KnownSet", number: int) -> dict[str, Any]:
 def _show(row: dict[str, Any]) -> None:
     for component in row["components"]:
         rows = [
-            (each["name"], "?" if each["value"] is None else f"{each['value']:g}", each["unit"],
-             f"{each['low']:g} to {each['high']:g}", each["words"])
+            (each["name"], "?" if each["value"] is None else f"{each['value']:g}", each["unit"] or "-",
+             f"{each['low']:g} to {each['high']:g}", each["words"] or "-")
             for each in component["parameters"]
         ]  # fmt: skip
         title = f"{component['name']} (component {component['component']})"
@@ -131,7 +132,7 @@ def get(
 ) -> None:
     """Ask for one parameter.
 
-    Example: stommel link params get QUIET_AFTER --to tcp:127.0.0.1:5760 --unsigned
+    Example: stommel link params get 25:QUIET_AFTER --to tcp:127.0.0.1:5760 --unsigned
     """
     with line_to(to, key, unsigned, vehicle, state) as line:
         _refresh(line, within)
@@ -154,7 +155,7 @@ def set_one(
 ) -> None:
     """Set one parameter, and show what holds then.
 
-    Example: stommel link params set QUIET_AFTER 8 --to tcp:127.0.0.1:5760 --unsigned
+    Example: stommel link params set 25:QUIET_AFTER 8 --to tcp:127.0.0.1:5760 --unsigned
     """
     with line_to(to, key, unsigned, vehicle, state) as line:
         _refresh(line, within)
@@ -170,14 +171,15 @@ def _found(line: "Line", name: str) -> tuple[int, str]:
     wanted, _, parameter = name.upper().rpartition(":")
     sets = line.end.parameters.known.sets.values()
     known = [(each.component, one.id) for each in sets for one in each.descriptions]
-    fits = [(component, one) for component, one in known if one == parameter and wanted in ("", str(component))]
+    fits = [(component, one) for component, one in sorted(known) if one == parameter and wanted in ("", str(component))]
     if len(fits) == 1:
         return fits[0]
     if fits:
         told = " or ".join(f"{component}:{one}" for component, one in fits)
         raise LinkError(f"{name}: is a parameter of several components; say {told}")
-    near = did_you_mean(parameter, [one for _, one in known])
-    raise LinkError(f"{name}: is no parameter of the vehicle{near} `stommel link params list` shows them")
+    near = did_you_mean(parameter, {one for _, one in known})
+    told = near if near != ";" else "; `stommel link params list` shows them"
+    raise LinkError(f"{name}: is no parameter of the vehicle{told}")
 
 
 def _single(line: "Line", ticket: int, within: float) -> dict[str, Any]:

@@ -2,8 +2,9 @@
 
 from typing import NamedTuple
 
-from stommel.link.commands.states import UNKNOWN_PERCENT, Progress, short
+from stommel.link.commands.states import MOST_WORDS, UNKNOWN_PERCENT, Progress
 from stommel.link.outbox import Outbox, Priority
+from stommel.link.words import fitted
 from stommel.messages.mavlink import FieldValue, message_named
 
 STATUS = "GLIDER_COMMAND_STATUS"
@@ -46,6 +47,6 @@ class Answers:
                 "state": int(progress.state),
                 "percent": min(max(progress.percent, 0), UNKNOWN_PERCENT),
                 "asking": asking,
-                "words": short(progress.words),
+                "words": fitted(progress.words, MOST_WORDS),
             }
             outbox.put(Priority.COMMAND, STATUS, values)

@@ -12,6 +12,7 @@ from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import VEHICLE_COMPONENT, Received, is_for
 from stommel.link.timing import MOST as LONGEST_WAIT
 from stommel.link.timing import RetransmissionTimer
+from stommel.link.values import whole
 from stommel.messages.mavlink import message_named
 
 LEAST_VALID, MOST_VALID = 1.0, MOST_AHEAD / 1000.0 - 3600.0
@@ -53,8 +54,6 @@ class CommandClient:
     clock
         The clock [s] that our TIMESYNC tells, at such a time. It goes on when the program is started anew, as UTC does;
         if it is found set back, all open commands are taken back, since nobody can say when they expire.
-    vehicle_component
-        Who is commanded there.
     """
 
     def __init__(
@@ -67,9 +66,8 @@ class CommandClient:
         t: float,
         *,
         clock: Callable[[float], float] = lambda t: t,
-        vehicle_component: int = VEHICLE_COMPONENT,
     ) -> None:
-        self._me, self._vehicle = (system, component), (vehicle, vehicle_component)
+        self._me, self._vehicle = (system, component), (vehicle, VEHICLE_COMPONENT)
         self._draw, self._clock = draw, clock
         self._queue = ShoreQueue(storage)
         self.notes = self._queue.notes
@@ -196,15 +194,12 @@ class CommandClient:
         if received.name != "GLIDER_COMMAND_STATUS" or not is_for(received, *self._me):
             return
         values = received.values
-        id, number, percent, asking = (values[name] for name in ("id", "state", "percent", "asking"))
-        assert isinstance(id, int)
-        assert isinstance(number, int)
-        assert isinstance(percent, int)
+        id, number, percent, asking = (whole(values, name) for name in ("id", "state", "percent", "asking"))
         known = self._queue.waiting.get(id)
         if known is not None and known.last is None and known.sent and number in list(State):
             self._hear(known, Progress(State(number), percent, str(values["words"])), asking, t)
 
-    def _hear(self, entry: Waiting, progress: Progress, asking: object, t: float) -> None:
+    def _hear(self, entry: Waiting, progress: Progress, asking: int, t: float) -> None:
         """Take what the vehicle says of a command, as the answer to a question of this number, or to none."""
         if asking and asking == entry.asking:
             self.timer.measure(t - entry.asked_at)

@@ -11,8 +11,9 @@ from typing import Any, NamedTuple
 
 from stommel.errors import StommelError
 from stommel.files.storage import Storage
-from stommel.link.commands.states import LATEST, Command, Progress, State, When, short
+from stommel.link.commands.states import LATEST, MOST_WORDS, Command, Progress, State, When
 from stommel.link.keeping import DamagedError, keep, kept
+from stommel.link.words import fitted
 
 FILE = "commands"
 MOST = 256
@@ -93,11 +94,6 @@ class Ledger:
         """When the last abort was given, by its sender's clock [ms]; 0 for never."""
         return self._content.aborted
 
-    @property
-    def is_lost(self) -> bool:
-        """Whether a ledger was lost, and it is not known yet until when it reached."""
-        return self._content.lost
-
     def may_be_forgotten(self, given: int, expires: int) -> bool:
         """Whether an unknown command of these times may have been here before."""
         content = self._content
@@ -172,7 +168,7 @@ def _told(entry: Entry) -> list[Any]:
     command, progress = entry.command, entry.progress
     return [
         command.id, command.number, [repr(value) for value in command.parameters], int(command.when), command.given,
-        command.expires, int(progress.state), progress.percent, short(progress.words), int(entry.dived),
+        command.expires, int(progress.state), progress.percent, fitted(progress.words, MOST_WORDS), int(entry.dived),
     ]  # fmt: skip
 
 

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from stommel.files.storage import Storage
-from stommel.link.commands.states import Command, Progress, State, When, short
+from stommel.link.commands.states import MOST_WORDS, Command, Progress, State, When
 from stommel.link.commands.table import CommandError
 from stommel.link.keeping import DamagedError, keep, kept
+from stommel.link.words import fitted
 
 FILE = "commands"
 MOST_OPEN = 64
@@ -109,7 +110,7 @@ def _told(entry: Waiting) -> list[Any]:
     command, last = entry.command, entry.last
     return [
         command.id, command.number, list(command.parameters), int(command.when), command.given, command.expires,
-        int(entry.sent), int(entry.cancel), last and [int(last.state), last.percent, short(last.words)],
+        int(entry.sent), int(entry.cancel), last and [int(last.state), last.percent, fitted(last.words, MOST_WORDS)],
     ]  # fmt: skip
 
 

@@ -14,6 +14,7 @@ from stommel.link.commands.states import UNKNOWN_PERCENT, Command, Progress, Sta
 from stommel.link.commands.table import ABORT, HOLD, PARAMETERS, RECALL, START, command_numbered, refusal
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
+from stommel.link.values import real, whole
 from stommel.messages.mavlink import Fields, enumeration
 
 SAME_WITHIN = 3.0
@@ -114,17 +115,10 @@ class StandardCommands:
         if not (is_int or received.name == "COMMAND_LONG") or not is_for(received, *self._me):
             return
         values = received.values
-        number, confirmation = values["command"], values.get("confirmation", 0)
-        assert isinstance(number, int)
-        assert isinstance(confirmation, int)
-        names = [
-            "param1",
-            "param2",
-            "param3",
-            "param4",
-            *(("x", "y", "z") if is_int else ("param5", "param6", "param7")),
-        ]
-        parameters = [float(values[name]) for name in names]  # type: ignore[arg-type]
+        number, confirmation = whole(values, "command"), 0 if is_int else whole(values, "confirmation")
+        places = ("x", "y", "z") if is_int else ("param5", "param6", "param7")
+        names = ("param1", "param2", "param3", "param4", *places)
+        parameters = [real(values, name) for name in names]
         sender = (received.system, received.component)
         key = (number, *map(str, parameters))
         last = self._last.get(sender)

@@ -5,6 +5,7 @@ from enum import IntEnum
 from math import isfinite
 from typing import NamedTuple
 
+from stommel.link.values import whole
 from stommel.messages.mavlink import FieldValue
 
 MOST_AHEAD = 31 * 86_400_000
@@ -119,20 +120,9 @@ class Command(NamedTuple):
 
 def command_of(values: Mapping[str, FieldValue]) -> Command | None:
     """Return the command of a GLIDER_COMMAND; None if it is none that can be remembered."""
-    id, given, expires, when = (_whole(values, name) for name in ("id", "given", "expires", "when"))
+    id, given, expires, when = (whole(values, name) for name in ("id", "given", "expires", "when"))
     parameters = values["parameters"]
     assert isinstance(parameters, tuple)
     if not id or not 0 <= given < expires < LATEST or when not in list(When) or not all(map(isfinite, parameters)):
         return None
-    return Command(id, _whole(values, "command"), tuple(map(float, parameters)), When(when), given, expires)
-
-
-def _whole(values: Mapping[str, FieldValue], name: str) -> int:
-    value = values[name]
-    assert isinstance(value, int)
-    return value
-
-
-def short(words: str) -> str:
-    """Words as they fit into an answer."""
-    return words.encode()[:MOST_WORDS].decode("utf-8", "ignore")
+    return Command(id, whole(values, "command"), tuple(map(float, parameters)), When(when), given, expires)

@@ -9,15 +9,16 @@ from stommel.link.files.progress import Progress, State
 from stommel.link.files.received_file import (
     Identity,
     ReceivedFile,
-    ReceptionError,
+    ReceivedFileError,
     WrongSumError,
     identity_on_disk,
 )
 from stommel.link.files.request_words import transfer_number
-from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
 from stommel.link.timing import RetransmissionTimer
+from stommel.link.traffic import Traffic
+from stommel.link.values import octets, text, whole
 
 ALL = 0xFFFFFFFF
 _MOST_STARTS = 2
@@ -40,6 +41,8 @@ class Download:
         Time without an answer after which it has failed [s], not counting pauses; None: never.
     timer
         What is known of the round trip already.
+    traffic
+        Counts of this end; None: nobody asks.
     """
 
     def __init__(
@@ -52,10 +55,11 @@ class Download:
         *,
         patience: float | None = PATIENCE,
         timer: RetransmissionTimer | None = None,
+        traffic: Traffic | None = None,
     ) -> None:
         self._own, self._peer, self.path, self._disk, self._name = own, peer, path, disk, name
         self.transfer = transfer_number("download", own, path)
-        self._asking = Asking(timer, patience)
+        self._asking, self._traffic = Asking(timer, patience), traffic
         self._fetch: Fetch | None = None
         self.file: ReceivedFile | None = None
         self.state, self.reason = State.IDENTIFYING, ""
@@ -70,7 +74,7 @@ class Download:
                 self._open(self._wanted)
             else:
                 self._wanted = None
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             self._end(State.FAILED, str(error))
         except FileRefusalError as error:  # what no message can name need not be asked for
             self._end(State.REFUSED, str(error))
@@ -79,7 +83,7 @@ class Download:
         """Go on with what is on the disk if it is of this file, or begin; segments may still be on their way."""
         self.file = ReceivedFile(self._disk, self._name, identity)
         timer = self._asking.timer
-        self._fetch = Fetch(self._peer, self.transfer, self.file.missing, self.file, timer, self._fetch)
+        self._fetch = Fetch(self._peer, self.transfer, self.file.missing, self.file, timer, self._fetch, self._traffic)
 
     # what others ask
 
@@ -128,20 +132,20 @@ class Download:
             elif received.name == "FILE_DATA" and self._fetch is not None and self.file is not None:
                 self._asking.goes_on(t)
                 self._fetch.take(received, t)
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             self._end(State.FAILED, str(error))
 
     def _identified(self, received: Received, t: float) -> None:
-        result, size = FileResult(whole(received, "result")), whole(received, "size")
+        result, size = FileResult(whole(received.values, "result")), whole(received.values, "size")
         if result is FileResult.UNKNOWN:
             self._identify_again(t)
         elif result is FileResult.OK and self.state is State.IDENTIFYING:
             self._asking.answered(t)
-            self._begin(Identity(self.path, size, octets(received, "sha256").hex()), t)
+            self._begin(Identity(self.path, size, octets(received.values, "sha256").hex()), t)
         elif result is FileResult.CHANGED:
-            self._changed(text(received, "reason"), t)
+            self._changed(text(received.values, "reason"), t)
         elif result not in (FileResult.OK, FileResult.NO_ROOM):  # room may come
-            self._end(State.REFUSED, text(received, "reason") or result.name)
+            self._end(State.REFUSED, text(received.values, "reason") or result.name)
 
     def _identify_again(self, t: float) -> None:
         """The other end does not know this transfer, any more or yet."""
@@ -190,7 +194,7 @@ class Download:
                 self._fetch.poll(t, outbox)
             elif self._asking.is_due(t) and outbox.room(Priority.COMMAND) >= _ROOM:
                 self._ask_which(t, outbox)
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             self._end(State.FAILED, str(error))
 
     def _ask_which(self, t: float, outbox: Outbox) -> None:
@@ -232,5 +236,5 @@ class Download:
         if self.file is not None:
             try:
                 self.file.close()
-            except ReceptionError as error:
+            except ReceivedFileError as error:
                 self.reason = reason if reason == str(error) else f"{reason}; {error}"

@@ -8,10 +8,11 @@ from stommel.link.files.pace import Pace
 from stommel.link.files.ranges import Range
 from stommel.link.files.recovery import MOST_REQUESTS, Recovery
 from stommel.link.files.request_words import LONGEST, MOST_RANGES, PROBE, packed_ranges
-from stommel.link.files.values import octets, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received
 from stommel.link.timing import FIRST, RetransmissionTimer
+from stommel.link.traffic import Traffic
+from stommel.link.values import octets, whole
 
 STILL_HERE = 4.0
 """Something is said at least so often while segments come [s]: who hears nothing stops sending."""
@@ -60,6 +61,8 @@ class Fetch:
         What is known of the round trip already.
     before
         The fetch of the same transfer that this one takes the place of: what it counted goes on.
+    traffic
+        Counts of this end; None: nobody asks.
     """
 
     def __init__(
@@ -70,8 +73,10 @@ class Fetch:
         keeper: Keeper,
         timer: RetransmissionTimer | None = None,
         before: "Fetch | None" = None,
+        traffic: Traffic | None = None,
     ) -> None:
         self.peer, self.transfer, self._keeper = peer, transfer, keeper
+        self._traffic = Traffic() if traffic is None else traffic
         self.recovery = Recovery(missing)
         self.loss: LossBySize = LossBySize() if before is None else before.loss
         self.loss.forget_number()
@@ -94,11 +99,6 @@ class Fetch:
     def is_whole(self) -> bool:
         """Whether nothing is missing."""
         return not self.recovery.missing
-
-    @property
-    def heard_at(self) -> float:
-        """When a segment came last [s]."""
-        return self.pace.heard
 
     def begin_again(self) -> None:
         """Forget what was asked for: this end was away."""
@@ -123,13 +123,13 @@ class Fetch:
 
     def take(self, received: Received, t: float) -> None:
         """Take FILE_DATA of this transfer at a time [s]."""
-        offset, length, serial = whole(received, "offset"), whole(received, "length"), whole(received, "serial")
-        data = octets(received, "data")[:length]
+        values = received.values
+        offset, length, serial, echo = (whole(values, name) for name in ("offset", "length", "serial", "echo"))
+        data = octets(values, "data")[:length]
         if not 0 < length <= MOST_SEGMENT or len(data) != length:
             return
-        echo = whole(received, "echo")
         self._measure(echo, t)
-        self.loss.note(whole(received, "number"), probing=self._probing.get(echo, False))
+        self.loss.note(whole(values, "number"), probing=self._probing.get(echo, False))
         for first, last in self.recovery.missing.within(offset, offset + length):
             self._keeper.write(first, data[first - offset : last - offset], t)
         new = self.recovery.take(serial, offset, length, t)
@@ -137,6 +137,7 @@ class Fetch:
         self.counts = counts._replace(
             received=counts.received + new, duplicate=counts.duplicate + length - new, frames=counts.frames + 1
         )
+        self._traffic.received(new, t)
         self.pace.note(new, t)
         self._waits = 0
 

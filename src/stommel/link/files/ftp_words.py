@@ -74,9 +74,7 @@ def packed(words: Words) -> bytes:
     return _HEADER.pack(sequence, session, opcode, size, asked, complete, offset) + data
 
 
-def acknowledgement(
-    question: Words, data: bytes = b"", *, session: int | None = None, offset: int | None = None
-) -> Words:
+def acknowledgement(question: Words, data: bytes = b"", *, session: int | None = None) -> Words:
     """Return the answer of a question that was obeyed; its sequence is one higher."""
     return Words(
         (question.sequence + 1) & 0xFFFF,
@@ -85,7 +83,7 @@ def acknowledgement(
         len(data),
         question.opcode,
         False,
-        question.offset if offset is None else offset,
+        question.offset,
         data,
     )
 

@@ -1,5 +1,7 @@
 """Lists a folder of the other end, by MAVLink FTP."""
 
+import zlib
+
 from stommel.link.files import ftp_words
 from stommel.link.files.asking import PATIENCE, Asking
 from stommel.link.files.ftp_words import Opcode, Words
@@ -36,7 +38,8 @@ class Listing:
     ) -> None:
         self._own, self._peer, self.folder = own, peer, folder
         self._asking = Asking(timer, patience)
-        self._sequence = 0
+        self._sequence: int | None = None
+        """Of the question; begins elsewhere in each listing, so that no answer to another one counts."""
         self._seen = 0
         self.entries: list[Entry] = []
         """What was listed; all of it once the state is WHOLE."""
@@ -55,7 +58,9 @@ class Listing:
             return
         payload = received.values["payload"]
         answer = ftp_words.unpacked(payload) if isinstance(payload, bytes) else None
-        if answer is None or answer.asked != Opcode.LIST_DIRECTORY or answer.sequence != self._sequence + 1:
+        if self._sequence is None or answer is None:
+            return
+        if answer.asked != Opcode.LIST_DIRECTORY or answer.sequence != self._sequence + 1:
             return
         self._asking.answered(t)
         if answer.opcode == Opcode.NAK:
@@ -84,6 +89,8 @@ class Listing:
             self.state, self.reason = State.FAILED, f"{self.folder}: no answer for {self._asking.patience:.0f} s"
         elif self._asking.is_due(t) and outbox.room(Priority.COMMAND) >= _ROOM:
             data = self.folder.encode()
+            if self._sequence is None:
+                self._sequence = (int(t * 997.0) + zlib.crc32(data)) % 0xFFFF
             words = Words(self._sequence, 0, Opcode.LIST_DIRECTORY, len(data), offset=self._seen, data=data)
             system, component = self._peer
             outbox.put(

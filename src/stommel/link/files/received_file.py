@@ -30,11 +30,11 @@ _LONGEST = 1 << 16
 """Bytes that one record vouches for: what a damaged sector takes with it."""
 
 
-class ReceptionError(StommelError):
+class ReceivedFileError(StommelError):
     """A file cannot be received, kept or finished; what has come is kept."""
 
 
-class WrongSumError(ReceptionError):
+class WrongSumError(ReceivedFileError):
     """All bytes have come, and they are not the file: all have to come again."""
 
 
@@ -62,7 +62,7 @@ class ReceivedFile:
 
     def __init__(self, disk: Disk, name: str, identity: Identity) -> None:
         if not 0 <= identity.size <= MOST_SIZE:
-            raise ReceptionError(f"{name}: size = {identity.size}: must be between 0 and {MOST_SIZE} bytes")
+            raise ReceivedFileError(f"{name}: size = {identity.size}: must be between 0 and {MOST_SIZE} bytes")
         self._disk, self.name, self.identity = disk, name, identity
         self._part, self._journal = f"{name}.part", f"{name}.part.ranges"
         self.received = Ranges()
@@ -87,7 +87,7 @@ class ReceivedFile:
 
         Raises
         ------
-        ReceptionError
+        ReceivedFileError
             The disk does not take them; what has come before is kept.
         """
         try:
@@ -121,11 +121,11 @@ class ReceivedFile:
         ------
         WrongSumError
             It is not the file; everything is missing again.
-        ReceptionError
+        ReceivedFileError
             The disk fails, or bytes are missing.
         """
         if self.missing:
-            raise ReceptionError(f"{self.name}: {self.missing.bytes} of {self.identity.size} bytes are missing")
+            raise ReceivedFileError(f"{self.name}: {self.missing.bytes} of {self.identity.size} bytes are missing")
         if self.kept_as is not None:
             return self.kept_as
         try:
@@ -237,10 +237,10 @@ class ReceivedFile:
                 return False
         return True
 
-    def _disk_error(self, error: OSError) -> ReceptionError:
+    def _disk_error(self, error: OSError) -> ReceivedFileError:
         reason = error.strerror or str(error)
         kept = f"{self.received.bytes} of {self.identity.size} bytes are kept in {self._part}"
-        return ReceptionError(f"{self.name}: {reason}; {kept}")
+        return ReceivedFileError(f"{self.name}: {reason}; {kept}")
 
 
 def identity_on_disk(disk: Disk, name: str) -> Identity | None:
@@ -248,7 +248,7 @@ def identity_on_disk(disk: Disk, name: str) -> Identity | None:
 
     Raises
     ------
-    ReceptionError
+    ReceivedFileError
         The disk cannot be read.
     """
     try:
@@ -257,7 +257,7 @@ def identity_on_disk(disk: Disk, name: str) -> Identity | None:
     except FileNotFoundError:
         return None
     except OSError as error:
-        raise ReceptionError(f"{name}.part.ranges: {error.strerror or error}") from error
+        raise ReceivedFileError(f"{name}.part.ranges: {error.strerror or error}") from error
     except (ValueError, TypeError):
         return None
     return identity if newline and head == _head(identity) else None

@@ -6,14 +6,17 @@ from stommel.errors import StommelError
 from stommel.link.files.fetching import Fetch
 from stommel.link.files.paths import file_path
 from stommel.link.files.port import FilePort, FileRefusalError, FileResult, Part
-from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox
 from stommel.link.service import Received
+from stommel.link.traffic import Traffic
+from stommel.link.values import octets, text, whole
 
 MOST_INCOMING = 4
 FORGOTTEN = 900.0
 """An offer of which nothing was heard for so long is closed; what has come of it stays on the disk [s]."""
 _REMEMBERED = 16
+_TOLD_AGAIN = 20.0
+"""How long a refusal is told again to an offer that is repeated [s]; later it is a new offer, and may be taken."""
 _UNKNOWN_EVERY = 0.5
 Key = tuple[tuple[int, int], int]
 """System and component of whoever offers, and the number of the transfer."""
@@ -32,6 +35,12 @@ class _Offer(NamedTuple):
     sha256: bytes
 
 
+class _Ended(NamedTuple):
+    offer: _Offer
+    outcome: Outcome
+    t: float
+
+
 class _Incoming:
     def __init__(self, offer: _Offer, part: Part, fetch: Fetch, t: float) -> None:
         self.offer, self.part, self.fetch = offer, part, fetch
@@ -41,26 +50,35 @@ class _Incoming:
 class Receiving:
     """Offers of other ends, and what has come of them."""
 
-    def __init__(self, port: FilePort) -> None:
-        self._port = port
+    def __init__(self, port: FilePort, traffic: Traffic | None = None) -> None:
+        self._port, self._traffic = port, traffic
         self._incoming: dict[Key, _Incoming] = {}
-        self._ended: dict[Key, tuple[_Offer, Outcome]] = {}
+        self._ended: dict[Key, _Ended] = {}
         self._said_unknown = float("-inf")
         self.outcomes: list[tuple[Key, Outcome]] = []
         """To be said; whoever says them takes them out."""
 
     def offer(self, received: Received, t: float) -> None:
         """Take FILE_OFFER: begin, or go on; what has ended says so again."""
-        key = ((received.system, received.component), whole(received, "transfer"))
-        offer = _Offer(text(received, "path"), whole(received, "size"), octets(received, "sha256"))
+        key = ((received.system, received.component), whole(received.values, "transfer"))
+        offer = _Offer(text(received.values, "path"), whole(received.values, "size"), octets(received.values, "sha256"))
         incoming, ended = self._incoming.get(key), self._ended.get(key)
-        if ended is not None and ended[0] == offer:
-            self.outcomes.append((key, ended[1]))
+        if ended is not None and ended.offer == offer and self._holds(ended, t):
+            self.outcomes.append((key, ended.outcome))
         elif incoming is not None and incoming.offer == offer:
             incoming.heard = t
             incoming.fetch.wake(t)
         else:
             self._begin(key, offer, t)
+
+    def _holds(self, ended: _Ended, t: float) -> bool:
+        """Whether an outcome is one still: a file that came may have been removed since, and room may have come."""
+        if ended.outcome.result is not FileResult.OK:
+            return t - ended.t < _TOLD_AGAIN
+        try:
+            return self._port.size(file_path(ended.offer.path)) == ended.offer.size
+        except StommelError:
+            return False
 
     def _begin(self, key: Key, offer: _Offer, t: float) -> None:
         """Begin to receive; the same file under another number goes on under this one."""
@@ -73,13 +91,13 @@ class Receiving:
         try:
             part = self._port.receive(file_path(offer.path), offer.size, offer.sha256)
         except StommelError as error:
-            self._end(key, offer, _refusal(error))
+            self._end(key, offer, _refusal(error), t)
             return
-        self._incoming[key] = _Incoming(offer, part, Fetch(*key, part.missing, part), t)
+        self._incoming[key] = _Incoming(offer, part, Fetch(*key, part.missing, part, traffic=self._traffic), t)
 
     def data(self, received: Received, t: float) -> None:
         """Take FILE_DATA."""
-        key = ((received.system, received.component), whole(received, "transfer"))
+        key = ((received.system, received.component), whole(received.values, "transfer"))
         incoming = self._incoming.get(key)
         if incoming is None:
             self._unknown(key, t)
@@ -89,7 +107,7 @@ class Receiving:
             incoming.fetch.take(received, t)
         except StommelError as error:
             self._close(key)
-            self._end(key, incoming.offer, _refusal(error))
+            self._end(key, incoming.offer, _refusal(error), t)
 
     def _unknown(self, key: Key, t: float) -> None:
         """Somebody goes on with what this end has forgotten by a restart; say so now and then."""
@@ -105,21 +123,21 @@ class Receiving:
                 if incoming.fetch.is_whole:
                     del self._incoming[key]
                     incoming.part.finish()
-                    self._end(key, incoming.offer, Outcome(FileResult.OK))
+                    self._end(key, incoming.offer, Outcome(FileResult.OK), t)
                 elif t - incoming.heard > FORGOTTEN:
                     self._close(key)
                 else:
                     incoming.fetch.poll(t, outbox)
             except StommelError as error:
                 self._incoming.pop(key, None)
-                self._end(key, incoming.offer, _refusal(error))
+                self._end(key, incoming.offer, _refusal(error), t)
 
     def _close(self, key: Key) -> None:
         self._incoming.pop(key).part.close()
 
-    def _end(self, key: Key, offer: _Offer, outcome: Outcome) -> None:
+    def _end(self, key: Key, offer: _Offer, outcome: Outcome, t: float) -> None:
         self._ended.pop(key, None)
-        self._ended[key] = (offer, outcome)
+        self._ended[key] = _Ended(offer, outcome, t)
         while len(self._ended) > _REMEMBERED:
             del self._ended[next(iter(self._ended))]
         self.outcomes.append((key, outcome))

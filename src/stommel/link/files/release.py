@@ -5,10 +5,10 @@ from stommel.link.files.port import FileResult
 from stommel.link.files.progress import State
 from stommel.link.files.received_file import Identity
 from stommel.link.files.request_words import transfer_number
-from stommel.link.files.values import text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
 from stommel.link.timing import RetransmissionTimer
+from stommel.link.values import text, whole
 
 _ROOM = 255
 
@@ -47,11 +47,11 @@ class Release:
         values = received.values
         if received.name != "FILE_OUTCOME" or values["transfer"] != self.transfer or not is_for(received, *self._own):
             return
-        result = FileResult(whole(received, "result"))
+        result = FileResult(whole(received.values, "result"))
         # It was deleted before, and the answer was lost.
         is_gone = result is FileResult.NOT_FOUND and self._said > 1
         self.state = State.WHOLE if result is FileResult.OK or is_gone else State.REFUSED
-        self.reason = "" if self.state is State.WHOLE else text(received, "reason") or result.name
+        self.reason = "" if self.state is State.WHOLE else text(received.values, "reason") or result.name
 
     def poll(self, t: float, outbox: Outbox) -> None:
         """Say what is due at a time [s]."""

@@ -6,11 +6,12 @@ from typing import NamedTuple
 
 from stommel.link.files.loss import MOST_SEGMENT, SHORT_EVERY
 from stommel.link.files.port import FileRefusalError, FtpError
-from stommel.link.files.ranges import Range
+from stommel.link.files.ranges import Range, Ranges
 from stommel.link.files.request_words import PROBE, unpacked_ranges
-from stommel.link.files.values import octets, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received
+from stommel.link.traffic import Traffic
+from stommel.link.values import octets, whole
 
 MOST_TRANSFERS = 8
 FORGOTTEN = 900.0
@@ -58,7 +59,7 @@ class Transfer:
         self._epoch: int | None = None
         self._segment, self._probe = MOST_SEGMENT, False
         self.heard = float("-inf")
-        self.sent_bytes = 0
+        self._sent = Ranges()
 
     def request(self, values: dict[str, int], packed: bytes, t: float) -> None:
         """Take a request at a time [s]; one that comes again is not obeyed again."""
@@ -112,15 +113,32 @@ class Transfer:
             "length": len(data), "data": data,
         }  # fmt: skip
         self._number = (self._number + 1) & 0xFFFF
-        self.sent_bytes += len(data)
         return values
+
+    def note_sent(self, values: dict[str, int | bytes], traffic: Traffic) -> None:
+        """Count what was sent, and what of it was sent before."""
+        first, length = values["offset"], values["length"]
+        assert isinstance(first, int)
+        assert isinstance(length, int)
+        new = self._sent.add(first, first + length)
+        traffic.sent(new)
+        traffic.sent(length - new, again=True)
 
 
 class Sender:
-    """The transfers of one end, of which each gets its turn."""
+    """The transfers of one end, of which each gets its turn.
 
-    def __init__(self, component: int | None = None) -> None:
+    Parameters
+    ----------
+    component
+        Who sends; None: the end's own.
+    traffic
+        Counts of this end; None: nobody asks.
+    """
+
+    def __init__(self, component: int | None = None, traffic: Traffic | None = None) -> None:
         self._component = component
+        self._traffic = Traffic() if traffic is None else traffic
         self._transfers: dict[tuple[Peer, int], Transfer] = {}
         self.broken: list[Broken] = []
         """Transfers that ended because their file cannot be read; whoever looks takes them out."""
@@ -142,19 +160,15 @@ class Sender:
         if (peer, number) in self._transfers:
             self._transfers[peer, number].forget_requests()
 
-    def close(self, peer: Peer, number: int) -> None:
-        """End a transfer."""
-        self._transfers.pop((peer, number), None)
-
     def request(self, received: Received, t: float) -> bool:
         """Take FILE_REQUEST at a time [s]; False if there is no such transfer."""
         values = received.values
-        key = ((received.system, received.component), whole(received, "transfer"))
+        key = ((received.system, received.component), whole(received.values, "transfer"))
         transfer = self._transfers.get(key)
         if transfer is None:
             return False
         numbers = {name: int(value) for name, value in values.items() if isinstance(value, int)}
-        transfer.request(numbers, octets(received, "ranges"), t)
+        transfer.request(numbers, octets(received.values, "ranges"), t)
         return True
 
     def poll(self, t: float, outbox: Outbox) -> None:
@@ -174,6 +188,7 @@ class Sender:
             self.broken.append(Broken(peer, number, transfer.size, error))
             return
         outbox.put(Priority.DATA, "FILE_DATA", values, self._component)
+        transfer.note_sent(values, self._traffic)
         self._transfers[key] = self._transfers.pop(key)
 
 

@@ -8,9 +8,11 @@ from stommel.link.files.paths import file_path, shown
 from stommel.link.files.port import FilePort, FileRefusalError, FileResult, FtpError, Path
 from stommel.link.files.receiving import Receiving
 from stommel.link.files.sending import Peer, Sender, Transfer
-from stommel.link.files.values import octets, text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
+from stommel.link.traffic import Traffic
+from stommel.link.values import octets, text, whole
+from stommel.link.words import fitted
 from stommel.messages.mavlink import FieldValue
 
 MOST_REASON = 100
@@ -28,12 +30,18 @@ class FileServer:
         Who answers.
     port
         The files.
+    traffic
+        Counts of this end; None: nobody asks.
     """
 
-    def __init__(self, system: int, component: int, port: FilePort) -> None:
+    def __init__(self, system: int, component: int, port: FilePort, traffic: Traffic | None = None) -> None:
         self._system, self._component, self._port = system, component, port
         self._ftp = FtpServer(system, component, port)
-        self._sender, self._receiving, self._digests = Sender(component), Receiving(port), Digests(port)
+        self._sender, self._receiving, self._digests = (
+            Sender(component, traffic),
+            Receiving(port, traffic),
+            Digests(port),
+        )
         self._answers: deque[tuple[str, dict[str, FieldValue]]] = deque(maxlen=_MOST_WAITING)
         self._take = {
             "FILE_OPEN": self._open,
@@ -69,12 +77,12 @@ class FileServer:
 
     def _open(self, received: Received, t: float) -> None:
         peer, number = _who(received)
-        length = whole(received, "length")
+        length = whole(received.values, "length")
         self._sender.forget_requests(peer, number)
         if (peer, number) in self._digests:
             return  # asked again while it is being summed
         try:
-            path = file_path(text(received, "path"))
+            path = file_path(text(received.values, "path"))
             there = min(self._port.size(path), _MOST_SIZE - 1)
             if length != _MOST_SIZE and length > there:
                 reason = f"{shown(path)}: has {there} bytes, {length} were asked for"
@@ -113,7 +121,7 @@ class FileServer:
         system, component = peer
         address: dict[str, FieldValue] = {
             "target_system": system, "target_component": component, "transfer": transfer,
-            "reason": reason.encode()[:MOST_REASON].decode("utf-8", "ignore"),
+            "reason": fitted(reason, MOST_REASON),
         }  # fmt: skip
         self._answers.append((name, address | values))
 
@@ -121,12 +129,12 @@ class FileServer:
 
     def _release(self, received: Received, _t: float) -> None:
         peer, number = _who(received)
-        sha256, size = octets(received, "sha256"), whole(received, "size")
+        sha256, size = octets(received.values, "sha256"), whole(received.values, "size")
         key = (peer, number, "release")
         if key in self._digests:
             return
         try:
-            path = file_path(text(received, "path"))
+            path = file_path(text(received.values, "path"))
             there = self._port.size(path)
             if there != size:
                 self._answer_outcome(peer, number, FileResult.CHANGED, f"has {there} bytes, not {size}: not deleted")
@@ -152,4 +160,4 @@ class FileServer:
 
 
 def _who(received: Received) -> tuple[Peer, int]:
-    return (received.system, received.component), whole(received, "transfer")
+    return (received.system, received.component), whole(received.values, "transfer")

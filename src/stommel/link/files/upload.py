@@ -9,10 +9,11 @@ from stommel.link.files.progress import Progress, State
 from stommel.link.files.ranges import Ranges
 from stommel.link.files.request_words import transfer_number
 from stommel.link.files.sending import Sender, Transfer
-from stommel.link.files.values import text, whole
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
 from stommel.link.timing import RetransmissionTimer
+from stommel.link.traffic import Traffic
+from stommel.link.values import text, whole
 
 _ROOM = 255
 _QUIET = 3.0
@@ -36,6 +37,8 @@ class Upload:
         Time without an answer after which it has failed [s], not counting pauses; None: never.
     timer
         What is known of the round trip already.
+    traffic
+        Counts of this end; None: nobody asks.
     """
 
     def __init__(
@@ -47,12 +50,13 @@ class Upload:
         *,
         patience: float | None = PATIENCE,
         timer: RetransmissionTimer | None = None,
+        traffic: Traffic | None = None,
     ) -> None:
         self._own, self._peer, self.path = own, peer, path
         self._content, self._sha256 = content, hashlib.sha256(content).digest()
         self.transfer = transfer_number("upload", own, path)
         self._asking = Asking(timer, patience)
-        self._sender = Sender()
+        self._sender = Sender(traffic=traffic)
         self._sent = Ranges()
         self._heard = float("-inf")
         self._begun = False
@@ -89,7 +93,7 @@ class Upload:
         if received.name == "FILE_REQUEST":
             self._request(received, t)
         elif received.name == "FILE_OUTCOME":
-            self._end_or_offer(FileResult(whole(received, "result")), text(received, "reason"), t)
+            self._end_or_offer(FileResult(whole(received.values, "result")), text(received.values, "reason"), t)
 
     def _end_or_offer(self, result: FileResult, reason: str, t: float) -> None:
         if result is FileResult.UNKNOWN:

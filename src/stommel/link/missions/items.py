@@ -13,6 +13,7 @@ from math import isfinite, isnan
 from typing import NamedTuple
 
 from stommel.link.missions.port import Waypoint, WaypointPlan
+from stommel.link.values import real, whole
 from stommel.messages.mavlink import Fields
 
 NAV_WAYPOINT = 16
@@ -98,10 +99,10 @@ def in_degrees(item: Fields) -> Fields:
 
 def item_in(values: Fields, *, degrees: bool) -> Item:
     """Return the item of a MISSION_ITEM_INT, or of a MISSION_ITEM, which is in degrees."""
-    seq, command, frame = (int(values[key]) for key in ("seq", "command", "frame"))  # type: ignore[arg-type]
-    places = [float(values[key]) * (_E7 if degrees else 1) for key in ("x", "y")]  # type: ignore[arg-type]
+    seq, command, frame = (whole(values, key) for key in ("seq", "command", "frame"))
+    places = [real(values, key) * (_E7 if degrees else 1) for key in ("x", "y")]
     x, y = (round(place) if isfinite(place) else _NOWHERE for place in places)
-    param1, param2, param3, param4, z = (float(values[f]) for f in ("param1", "param2", "param3", "param4", "z"))  # type: ignore[arg-type]
+    param1, param2, param3, param4, z = (real(values, key) for key in ("param1", "param2", "param3", "param4", "z"))
     return Item(seq, command, frame, param1, param2, param3, param4, x, y, z)
 
 

@@ -14,6 +14,7 @@ from stommel.link.outbox import Outbox, Priority
 from stommel.link.patience import WITHIN, Patience
 from stommel.link.question import Pace, Question
 from stommel.link.service import SHORE_COMPONENT, SHORE_SYSTEM, VEHICLE_COMPONENT, Received, is_for
+from stommel.link.values import octets, text, whole
 from stommel.messages.mavlink import Fields
 
 PIECE = 160
@@ -133,10 +134,10 @@ class OrdersClient:
         if task.to_send or not task.question.tries:
             return  # late: what is on its way is not missing
         if values["refused"]:
-            self._end(OrdersOutcome(Ending.REFUSED, (str(values["words"]),)), t)
+            self._end(OrdersOutcome(Ending.REFUSED, (text(values, "words"),)), t)
             return
         task.question.answered(t)
-        missing = int(values["missing"])  # type: ignore[arg-type]
+        missing = whole(values, "missing")
         if missing != task.missing:
             task.patience.helped()
         task.missing, task.arrived = missing, missing == 0
@@ -150,14 +151,14 @@ class OrdersClient:
         if received.name == "ORDERS_OUTCOME":
             task.outcome = values
         else:
-            task.problems[int(values["index"])] = str(values["words"])  # type: ignore[arg-type]
+            task.problems[whole(values, "index")] = text(values, "words")
         told = task.outcome
         if told is None:
             return
         if told["accepted"] == NOT_HERE and task.content and task.anew < _MOST_ANEW:
             self._anew(task)
         elif told["accepted"] != DONE:
-            if len(task.problems) >= int(told["problems"]):  # type: ignore[arg-type]
+            if len(task.problems) >= whole(told, "problems"):
                 words = tuple(task.problems[index] for index in sorted(task.problems)) or (_GONE,)
                 self._end(OrdersOutcome(Ending.REFUSED, words), t)
         elif task.action != CHECK and told["held"] != task.sha256:
@@ -229,11 +230,9 @@ def _ranges(values: Fields) -> list[tuple[int, int]]:
     assert isinstance(firsts, tuple)
     assert isinstance(ends, tuple)
     pairs = [(int(first), int(end)) for first, end in zip(firsts, ends, strict=True)]
-    return pairs[: int(values["ranges"])]  # type: ignore[arg-type]
+    return pairs[: whole(values, "ranges")]
 
 
 def _held(values: Fields) -> HeldOrders:
-    held, previous = (value if any(value) else b"" for value in (values["held"], values["previous"]))  # type: ignore[arg-type]
-    assert isinstance(held, bytes)
-    assert isinstance(previous, bytes)
-    return HeldOrders(int(values["mission"]), str(values["name"]), held, previous)  # type: ignore[arg-type]
+    held, previous = (value if any(value) else b"" for value in (octets(values, "held"), octets(values, "previous")))
+    return HeldOrders(whole(values, "mission"), text(values, "name"), held, previous)

@@ -8,6 +8,7 @@ from stommel.link.missions.port import OrdersPort, WaypointPort
 from stommel.link.once import Arrival, Once
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.service import Received, is_for
+from stommel.link.values import octets, whole
 from stommel.link.words import fitted
 from stommel.messages.mavlink import Fields
 
@@ -65,7 +66,7 @@ class OrdersServer:
             take(received)
 
     def _announce(self, received: Received) -> None:
-        sha256, size = _bytes(received, "sha256"), int(received.values["size"])  # type: ignore[arg-type]
+        sha256, size = octets(received.values, "sha256"), whole(received.values, "size")
         told: Fields = {"file": sha256[:TAG]}
         try:
             if self._orders.held().sha256 != sha256:  # that file is held already
@@ -81,20 +82,20 @@ class OrdersServer:
 
     def _piece(self, received: Received) -> None:
         values, announced = received.values, self._orders.announced()
-        piece = _bytes(received, "data")[: int(values["length"])]  # type: ignore[arg-type]
+        piece = octets(received.values, "data")[: whole(values, "length")]
         if announced and announced[:TAG] == values["file"]:
             try:
-                self._orders.take_piece(int(values["offset"]), piece)  # type: ignore[arg-type]
+                self._orders.take_piece(whole(values, "offset"), piece)
             except StommelError:
                 return  # outside of the file, or not kept: it stays missing
 
     def _request(self, received: Received) -> None:
         values, sender = received.values, (received.system, received.component)
-        arrival = self._once.judge(sender, int(values["session"]), int(values["number"]))  # type: ignore[arg-type]
+        arrival = self._once.judge(sender, whole(values, "session"), whole(values, "number"))
         if arrival is Arrival.OLD:
             return
         if arrival is Arrival.NEW:
-            accepted, problems = self._carried_out(int(values["action"]), _bytes(received, "sha256"))  # type: ignore[arg-type]
+            accepted, problems = self._carried_out(whole(values, "action"), octets(received.values, "sha256"))
             told: Fields = {
                 "session": values["session"], "number": values["number"], "accepted": accepted,
                 "problems": len(problems), "held": self._orders.held().sha256,
@@ -153,9 +154,3 @@ class OrdersServer:
             if key[0] == "ORDERS_STATE":
                 del values["target_system"], values["target_component"]
             outbox.put(Priority.COMMAND, key[0], values)
-
-
-def _bytes(received: Received, field: str) -> bytes:
-    value = received.values[field]
-    assert isinstance(value, bytes)
-    return value

@@ -24,6 +24,7 @@ from stommel.link.outbox import Outbox, Priority
 from stommel.link.patience import WITHIN, Patience
 from stommel.link.question import Pace, Question
 from stommel.link.service import SHORE_COMPONENT, SHORE_SYSTEM, VEHICLE_COMPONENT, Received, is_for
+from stommel.link.values import real, text, whole
 from stommel.messages.mavlink import Fields
 
 _MOST_TRIES = 12
@@ -138,13 +139,13 @@ class WaypointClient:
             return
         name, values = received.name, received.values
         if name == "MISSION_COUNT" and task.step is _Step.BEGIN:
-            self._take_count(task, int(values["count"]), t)  # type: ignore[arg-type]
+            self._take_count(task, whole(values, "count"), t)
         elif name in ("MISSION_REQUEST_INT", "MISSION_REQUEST"):
             self._take_request(task, received, t)
         elif name == "WAYPOINTS_REFUSED" and task.step in (_Step.OFFER, _Step.SERVE, _Step.END):
-            task.words[str(values["words"])] = None
+            task.words[text(values, "words")] = None
         elif name == "MISSION_ACK" and task.step in (_Step.OFFER, _Step.SERVE, _Step.END):
-            self._take_end(task, int(values["type"]), t)  # type: ignore[arg-type]
+            self._take_end(task, whole(values, "type"), t)
         elif name == "MISSION_ITEM_INT" and task.step is _Step.FETCH:
             self._take_item(task, values, t)
         elif name == "ORDERS_STATE" and task.step is _Step.COMPARE:
@@ -167,7 +168,7 @@ class WaypointClient:
         """Only the next item is given, or one that was asked for before: another request is of another upload."""
         if task.plan is None or task.step not in (_Step.OFFER, _Step.SERVE, _Step.END):
             return
-        seq = int(received.values["seq"])  # type: ignore[arg-type]
+        seq = whole(received.values, "seq")
         if seq > task.served or seq >= len(task.plan.waypoints):
             return
         if task.step is _Step.OFFER:
@@ -194,7 +195,7 @@ class WaypointClient:
             self._end(Ending.REFUSED, f"the vehicle refuses it: {MissionResult(result).name.lower().replace('_', ' ')}")
 
     def _take_item(self, task: _Task, values: Fields, t: float) -> None:
-        seq, gathering = int(values["seq"]), task.gathering  # type: ignore[arg-type]
+        seq, gathering = whole(values, "seq"), task.gathering
         assert gathering is not None
         if gathering.take(seq, t):
             task.fetched[seq] = item_in(values, degrees=False)
@@ -289,6 +290,6 @@ def _agrees(plan: WaypointPlan, state: Fields) -> bool:
     return (
         state["waypoints"] == len(plan.waypoints)
         and state["waypoints_digest"] == waypoints_digest(plan.waypoints)
-        and (plan.depth is None or isclose(plan.depth, float(state["depth"]), rel_tol=1e-6))  # type: ignore[arg-type]
-        and (plan.radius is None or isclose(plan.radius, float(state["radius"]), rel_tol=1e-6))  # type: ignore[arg-type]
+        and (plan.depth is None or isclose(plan.depth, real(state, "depth"), rel_tol=1e-6))
+        and (plan.radius is None or isclose(plan.radius, real(state, "radius"), rel_tol=1e-6))
     )

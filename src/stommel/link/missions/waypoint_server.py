@@ -20,6 +20,7 @@ from stommel.link.missions.port import WaypointPort, WaypointProgress, WaypointR
 from stommel.link.outbox import Outbox, Priority
 from stommel.link.question import Pace, Question
 from stommel.link.service import Received, is_for
+from stommel.link.values import whole
 from stommel.link.words import fitted
 from stommel.messages.mavlink import Fields
 
@@ -102,13 +103,13 @@ class WaypointServer:
         take = self._takes.get(received.name)
         if take is None or not is_for(received, self._system, self._component):
             return
-        kind = received.values.get("mission_type", MISSION)
+        kind = whole(received.values, "mission_type") if "mission_type" in received.values else MISSION
         if kind == MISSION:
             take(received, t)
         elif received.name == "MISSION_REQUEST_LIST":
-            self._answer(received, "MISSION_COUNT", count=0, mission_type=kind)  # type: ignore[arg-type]
+            self._answer(received, "MISSION_COUNT", count=0, mission_type=kind)
         elif received.name in ("MISSION_COUNT", "MISSION_CLEAR_ALL"):
-            self._answer(received, "MISSION_ACK", type=int(MissionResult.UNSUPPORTED), mission_type=kind)  # type: ignore[arg-type]
+            self._answer(received, "MISSION_ACK", type=int(MissionResult.UNSUPPORTED), mission_type=kind)
 
     def _answer(self, received: Received, name: str, **values: int) -> None:
         to: Fields = {"target_system": received.system, "target_component": received.component}
@@ -117,7 +118,7 @@ class WaypointServer:
     # a mission comes
 
     def _count(self, received: Received, t: float) -> None:
-        sender, count = (received.system, received.component), int(received.values["count"])  # type: ignore[arg-type]
+        sender, count = (received.system, received.component), whole(received.values, "count")
         upload = self._upload
         if upload is not None and upload.sender != sender:
             self._refuse(received, MissionResult.DENIED, "another station is sending a mission")
@@ -133,7 +134,7 @@ class WaypointServer:
 
     def _item(self, received: Received, t: float) -> None:
         upload, sender = self._upload, (received.system, received.component)
-        seq = int(received.values["seq"])  # type: ignore[arg-type]
+        seq = whole(received.values, "seq")
         if upload is None:
             self._end_again(received, sender, seq, t)
             return
@@ -218,7 +219,7 @@ class WaypointServer:
         self._answer(received, "MISSION_COUNT", count=0 if plan is None else len(plan.waypoints))
 
     def _request(self, received: Received, t: float) -> None:  # noqa: ARG002 - as the others
-        plan, seq = self._port.plan(), int(received.values["seq"])  # type: ignore[arg-type]
+        plan, seq = self._port.plan(), whole(received.values, "seq")
         if plan is None or seq >= len(plan.waypoints):
             self._answer(received, "MISSION_ACK", type=int(MissionResult.INVALID_SEQUENCE))
             return
@@ -230,7 +231,7 @@ class WaypointServer:
             self._answers.append(("MISSION_ITEM_INT", item))
 
     def _aim(self, received: Received, t: float) -> None:
-        words = self._port.aim_at(int(received.values["seq"]))  # type: ignore[arg-type]
+        words = self._port.aim_at(whole(received.values, "seq"))
         if words:
             self._refuse(received, MissionResult.INVALID_SEQUENCE, words)
         self._tell_at = self._look_at = t

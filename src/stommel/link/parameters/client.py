@@ -6,7 +6,7 @@ from typing import NamedTuple
 from stommel.link.endings import Ending, Progress, progress
 from stommel.link.once import SESSIONS
 from stommel.link.outbox import Outbox, Priority
-from stommel.link.parameters.encoding import LONGEST_ID, ParameterError, fitting, value_of
+from stommel.link.parameters.encoding import LONGEST_ID, ParameterValueError, fitting, value_of
 from stommel.link.parameters.known import KnownParameters
 from stommel.link.parameters.port import Value
 from stommel.link.parameters.refreshing import Refreshing
@@ -14,6 +14,7 @@ from stommel.link.parameters.single import SingleOutcome, SingleParameters
 from stommel.link.patience import WITHIN, Patience
 from stommel.link.question import Pace, Question
 from stommel.link.service import Received
+from stommel.link.values import real, text, whole
 from stommel.messages.mavlink import Fields
 
 _AGAIN_AFTER = 2.0
@@ -90,14 +91,14 @@ class ParameterClient:
 
         Raises
         ------
-        ParameterError
+        ParameterValueError
             It is known that there is no such parameter, or that it cannot have the value.
         """
         known = self.known.sets.get(component)
         if known is not None:
             number = known.number(parameter)
             if number is None:
-                raise ParameterError(f"{parameter}: the {known.name} has no such parameter")
+                raise ParameterValueError(f"{parameter}: the {known.name} has no such parameter")
             value = fitting(known.descriptions[number], value)
         ticket = self._single.write(component, parameter[:LONGEST_ID], float(value), within)
         self._writes.add(ticket)
@@ -145,14 +146,14 @@ class ParameterClient:
 
     def _take_digest(self, refresh: _Refresh, received: Received, t: float) -> None:
         values, component = received.values, received.component
-        refresh.expected = int(values["set_count"])  # type: ignore[arg-type]
-        if int(values["set_number"]) in refresh.heard:  # type: ignore[arg-type]
+        refresh.expected = whole(values, "set_count")
+        if whole(values, "set_number") in refresh.heard:
             return
         refresh.patience.helped()
         if values["state"] == _BEING_READ:
             refresh.not_before = t + _AGAIN_AFTER
             return
-        refresh.heard.add(int(values["set_number"]))  # type: ignore[arg-type]
+        refresh.heard.add(whole(values, "set_number"))
         if not refresh.lacks_digests:
             refresh.question.answered(t)
         known = self.known.sets.get(component)
@@ -195,9 +196,9 @@ class ParameterClient:
     def _update(self, received: Received) -> None:
         """A value that the vehicle says to somebody else is as good."""
         known, values = self.known.sets.get(received.component), received.values
-        number = None if known is None else known.number(str(values["param_id"]))
+        number = None if known is None else known.number(text(values, "param_id"))
         if known is not None and number is not None and known.descriptions[number].kind == values["param_type"]:
-            value = value_of(known.descriptions[number].kind, float(values["param_value"]))  # type: ignore[arg-type]
+            value = value_of(known.descriptions[number].kind, real(values, "param_value"))
             self.known.sets[received.component] = known.with_value(known.descriptions[number].id, value)
 
     def poll(self, t: float, outbox: Outbox) -> None:

@@ -25,7 +25,7 @@ _CODES = {1: "<Bxxx", 2: "<bxxx", 3: "<Hxx", 4: "<hxx", 5: "<I", 6: "<i", 9: "<f
 """By MAV_PARAM_TYPE, those of 32 bits and less."""
 
 
-class ParameterError(StommelError):
+class ParameterValueError(StommelError):
     """A parameter that cannot be as it is described, or a value that it cannot have."""
 
     def __init__(self, words: str, error: WriteError = WriteError.OUT_OF_RANGE) -> None:
@@ -47,11 +47,11 @@ def value_of(kind: int, held: float) -> Value:
 
     Raises
     ------
-    ParameterError
+    ParameterValueError
         There is no such type.
     """
     if kind not in _CODES:
-        raise ParameterError(f"param_type = {kind}: must be one of {', '.join(map(str, _CODES))}")
+        raise ParameterValueError(f"param_type = {kind}: must be one of {', '.join(map(str, _CODES))}")
     value: Value = struct.unpack(_CODES[kind], struct.pack("<f", held))[0]
     return value
 
@@ -61,13 +61,13 @@ def held(kind: ParameterKind, value: Value) -> Value:
 
     Raises
     ------
-    ParameterError
+    ParameterValueError
         They cannot.
     """
     try:
         return value_of(kind, float_of(kind, value))
     except (struct.error, OverflowError):
-        raise ParameterError(f"{value!r}: is no {kind.name.lower()}") from None
+        raise ParameterValueError(f"{value!r}: is no {kind.name.lower()}") from None
 
 
 def fitting(described: Description, value: Value) -> Value:
@@ -75,7 +75,7 @@ def fitting(described: Description, value: Value) -> Value:
 
     Raises
     ------
-    ParameterError
+    ParameterValueError
         It is beyond the limits, or no whole number where one must be.
     """
     is_whole = described.kind is not ParameterKind.FLOAT32
@@ -88,7 +88,7 @@ def fitting(described: Description, value: Value) -> Value:
             return int(value)
     number = "a whole number " if is_whole else ""
     span = f"{number}between {described.low:.9g} and {described.high:.9g} {described.unit}".rstrip()
-    raise ParameterError(f"{described.id} = {value:.9g}: must be {span}")
+    raise ParameterValueError(f"{described.id} = {value:.9g}: must be {span}")
 
 
 def check_sets(sets: Iterable[ParameterSet]) -> None:
@@ -96,13 +96,13 @@ def check_sets(sets: Iterable[ParameterSet]) -> None:
 
     Raises
     ------
-    ParameterError
+    ParameterValueError
         One cannot be said, two have one name, or limits and default contradict each other.
     """
     for each in sets:
         names = [described.id for described in each.descriptions]
         if len(set(names)) != len(names) or len(each.values) != len(names):
-            raise ParameterError(f"parameters of {each.name}: must have one value each, and each name once")
+            raise ParameterValueError(f"parameters of {each.name}: must have one value each, and each name once")
         for described in each.descriptions:
             check_description(described, each.name)
 
@@ -112,21 +112,21 @@ def check_description(described: Description, component: str) -> None:
 
     Raises
     ------
-    ParameterError
+    ParameterValueError
         It cannot be said, or limits and default contradict each other.
     """
     where = f"parameters of {component}: {described.id}"
     if not _ID.fullmatch(described.id):
-        raise ParameterError(f"{where}: must be up to {LONGEST_ID} capital letters, digits and underscores")
+        raise ParameterValueError(f"{where}: must be up to {LONGEST_ID} capital letters, digits and underscores")
     if len(described.unit.encode()) > LONGEST_UNIT or len(described.words.encode()) > LONGEST_WORDS:
-        raise ParameterError(f"{where}: unit and words must be at most {LONGEST_UNIT} and {LONGEST_WORDS} bytes")
+        raise ParameterValueError(f"{where}: unit and words must be at most {LONGEST_UNIT} and {LONGEST_WORDS} bytes")
     least, most = {
         ParameterKind.UINT8: (0, 255),
         ParameterKind.INT32: (LEAST_INT, MOST_INT),
         ParameterKind.FLOAT32: (-3.4e38, 3.4e38),
     }[described.kind]
     if not least <= described.low <= described.default <= described.high <= most:
-        raise ParameterError(f"{where}: limits and default must rise from {least:.9g} to {most:.9g}")
+        raise ParameterValueError(f"{where}: limits and default must rise from {least:.9g} to {most:.9g}")
 
 
 def description_fields(number: int, described: Description) -> Fields:

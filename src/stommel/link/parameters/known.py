@@ -1,13 +1,14 @@
 """Parameters as the shore knows them, kept on its disk from one day to the next."""
 
 import json
+from math import isfinite
 from typing import Any, NamedTuple
 
 from stommel.files.storage import Storage, replace_whole
 from stommel.link.parameters.encoding import (
     LEAST_INT,
     MOST_INT,
-    ParameterError,
+    ParameterValueError,
     check_description,
     descriptions_digest,
     held,
@@ -45,7 +46,7 @@ class KnownSet(NamedTuple):
             return self
         try:
             new = held(self.descriptions[number].kind, value)
-        except ParameterError:
+        except ParameterValueError:
             return self
         return self._replace(values=(*self.values[:number], new, *self.values[number + 1 :]))
 
@@ -77,7 +78,7 @@ class KnownParameters:
                 self.sets = _sets_of(json.loads(self._storage.read(self._name)))
         except OSError as error:
             self.notes.append(f"{self._name}: cannot be read: {error.strerror or error}")
-        except (ValueError, KeyError, TypeError, AttributeError, ParameterError, RecursionError):
+        except (ValueError, KeyError, TypeError, AttributeError, ParameterValueError, RecursionError):
             self.notes.append(f"{self._name}: is damaged; parameters are asked for anew")
 
     def keep(self) -> None:
@@ -86,14 +87,18 @@ class KnownParameters:
             return
         told = {"format": _FORMAT, "sets": [_told(each) for each in self.sets.values()]}
         try:
-            replace_whole(self._storage, self._name, json.dumps(told, indent=1).encode())
+            replace_whole(self._storage, self._name, json.dumps(told, indent=1, allow_nan=False).encode())
         except OSError as error:
-            self.notes.append(f"{self._name}: cannot be kept: {error.strerror or error}")
+            note = f"{self._name}: cannot be kept: {error.strerror or error}"
+            if note not in self.notes:
+                self.notes.append(note)
 
 
 def _told(known: KnownSet) -> dict[str, Any]:
     described = [{**each._asdict(), "kind": int(each.kind)} for each in known.descriptions]
-    return {"component": known.component, "name": known.name, "descriptions": described, "values": list(known.values)}
+    # JSON has no word for what is no number: it is asked for anew
+    values = [value if value is not None and isfinite(value) else None for value in known.values]
+    return {"component": known.component, "name": known.name, "descriptions": described, "values": values}
 
 
 def _sets_of(told: Any) -> dict[int, KnownSet]:
@@ -125,14 +130,14 @@ def description_of(values: Any, component: str) -> Description:
 
     Raises
     ------
-    ParameterError
+    ParameterValueError
         It contradicts itself.
     """
     told = {"id": values["param_id"], "kind": values["param_type"], "default": values["default_value"]}
     try:
         return _description({**values, **told}, component)
     except ValueError as error:
-        raise ParameterError(f"parameters of {component}: {error}") from None
+        raise ParameterValueError(f"parameters of {component}: {error}") from None
 
 
 def _number(kind: ParameterKind, value: float) -> Value:
@@ -140,5 +145,5 @@ def _number(kind: ParameterKind, value: float) -> Value:
     if kind is ParameterKind.FLOAT32:
         return float(value)
     if not LEAST_INT <= value <= MOST_INT:
-        raise ParameterError(f"{value}: must be between {LEAST_INT} and {MOST_INT}")
+        raise ParameterValueError(f"{value}: must be between {LEAST_INT} and {MOST_INT}")
     return int(value)

@@ -3,11 +3,12 @@
 from stommel.link.endings import Ending
 from stommel.link.gathering import Gathering
 from stommel.link.outbox import Outbox, Priority
-from stommel.link.parameters.encoding import ParameterError, value_of
+from stommel.link.parameters.encoding import ParameterValueError, value_of
 from stommel.link.parameters.known import KnownSet, description_of
 from stommel.link.parameters.port import Description, ParameterState, Value
 from stommel.link.question import Pace
 from stommel.link.service import Received
+from stommel.link.values import real, text, whole
 from stommel.messages.mavlink import Fields
 
 MOST_PARAMETERS = 2000
@@ -33,10 +34,10 @@ class Refreshing:
 
     def __init__(self, system: int, component: int, digest: Fields, known: KnownSet | None, pace: Pace) -> None:
         self._system, self.component, self._pace = system, component, pace
-        self.name = str(digest["name"])
-        self.set_number = int(digest["set_number"])  # type: ignore[arg-type]
+        self.name = text(digest, "name")
+        self.set_number = whole(digest, "set_number")
         """Of the component among those that have parameters."""
-        self._count = int(digest["count"])  # type: ignore[arg-type]
+        self._count = whole(digest, "count")
         self._wanted = digest["descriptions"], digest["values"]
         self._state = ParameterState.SILENT
         self._descriptions: dict[int, Description] = {}
@@ -50,7 +51,7 @@ class Refreshing:
         """Why it has not ended whole."""
         self.contradicts = False
         """Whether all is here and the digest is another: parameters have changed meanwhile."""
-        self._begin(int(digest["state"]), known)  # type: ignore[arg-type]
+        self._begin(whole(digest, "state"), known)
 
     def _begin(self, state: int, known: KnownSet | None) -> None:
         if state == ParameterState.SILENT:
@@ -100,12 +101,12 @@ class Refreshing:
         return False
 
     def _take_description(self, values: Fields, described: Gathering, t: float) -> bool:
-        number = int(values["param_index"])  # type: ignore[arg-type]
+        number = whole(values, "param_index")
         if number not in described.missing:
             return False
         try:
             self._descriptions[number] = description_of(values, self.name)
-        except ParameterError as error:
+        except ParameterValueError as error:
             self._end(Ending.FAILED, str(error))
             return False
         described.take(number, t)
@@ -121,12 +122,12 @@ class Refreshing:
             self.contradicts = True
 
     def _take_value(self, values: Fields, valued: Gathering, t: float) -> bool:
-        number = int(values["param_index"])  # type: ignore[arg-type]
+        number = whole(values, "param_index")
         described = self._descriptions.get(number)
         if described is None or described.id != values["param_id"] or described.kind != values["param_type"]:
             return False
         is_new = valued.take(number, t)
-        self._values[number] = value_of(described.kind, float(values["param_value"]))  # type: ignore[arg-type]
+        self._values[number] = value_of(described.kind, real(values, "param_value"))
         if is_new and valued.is_whole:
             found = self._set()
             if found.digests == self._wanted:

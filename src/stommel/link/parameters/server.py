@@ -10,7 +10,7 @@ from stommel.link.outbox import Outbox, Priority
 from stommel.link.parameters.encoding import (
     LONGEST_ID,
     LONGEST_WORDS,
-    ParameterError,
+    ParameterValueError,
     check_sets,
     description_fields,
     descriptions_digest,
@@ -29,6 +29,7 @@ from stommel.link.parameters.port import (
     WriteOutcome,
 )
 from stommel.link.service import Received
+from stommel.link.values import real, text, whole
 from stommel.link.words import fitted
 from stommel.messages.mavlink import Fields
 
@@ -69,7 +70,7 @@ class ParameterServer:
 
     Raises
     ------
-    ParameterError
+    ParameterValueError
         The port describes a parameter that cannot be said.
     """
 
@@ -116,10 +117,10 @@ class ParameterServer:
                 self._streams[each.component] = going | dict.fromkeys(range(len(each.descriptions)))
 
     def _read(self, received: Received) -> None:
-        index, name = received.values["param_index"], fitted(str(received.values["param_id"]), LONGEST_ID)
+        index, name = whole(received.values, "param_index"), fitted(text(received.values, "param_id"), LONGEST_ID)
         sets = self._meant(received)
         for each in sets:
-            number = each.number(name) if index == -1 else int(index)  # type: ignore[arg-type]
+            number = each.number(name) if index == -1 else index
             if number is None or not 0 <= number < len(each.descriptions):
                 continue
             if each.is_silent or each.values[number] is None:
@@ -128,7 +129,7 @@ class ParameterServer:
                 self._singles[each.component, number] = None
             return
         if sets:
-            self._error(received, sets[0].component, int(index), name, WriteError.DOES_NOT_EXIST)  # type: ignore[arg-type]
+            self._error(received, sets[0].component, index, name, WriteError.DOES_NOT_EXIST)
 
     def _error(self, received: Received, component: int, index: int, name: str, error: WriteError) -> None:
         """PARAM_ERROR to who asked."""
@@ -142,7 +143,7 @@ class ParameterServer:
         self._digests |= {each.component: None for each in self._meant(received)}
 
     def _describe(self, received: Received) -> None:
-        first, count = int(received.values["first"]), int(received.values["count"])  # type: ignore[arg-type]
+        first, count = whole(received.values, "first"), whole(received.values, "count")
         for each in self._meant(received):
             last = min(first + count, len(each.descriptions))
             self._described |= {(each.component, number): None for number in range(first, last)}
@@ -152,19 +153,19 @@ class ParameterServer:
     def _set(self, received: Received) -> None:
         values = received.values
         try:
-            value = value_of(int(values["param_type"]), float(values["param_value"]))  # type: ignore[arg-type]
-        except ParameterError as error:
+            value = value_of(whole(values, "param_type"), real(values, "param_value"))
+        except ParameterValueError as error:
             self._refuse(_asked(received, 0, 0, 0.0), error)
             return
         self._begin(received, _asked(received, 0, 0, value))
 
     def _write(self, received: Received) -> None:
         values, sender = received.values, (received.system, received.component)
-        session, number = int(values["session"]), int(values["number"])  # type: ignore[arg-type]
+        session, number = whole(values, "session"), whole(values, "number")
         arrival = self._once.judge(sender, session, number)
         if arrival is Arrival.NEW:
             self._last.pop(sender, None)
-            self._begin(received, _asked(received, session, number, float(values["value"])))  # type: ignore[arg-type]
+            self._begin(received, _asked(received, session, number, real(values, "value")))
         elif arrival is Arrival.AGAIN and sender in self._last:
             self._answers.append(self._last[sender])
 
@@ -174,12 +175,12 @@ class ParameterServer:
         each, number = next((found for found in sets if found[1] is not None), (None, None))
         if each is None or number is None:
             words = f"{asked.parameter}: there is no such parameter"
-            self._refuse(asked, ParameterError(words, WriteError.DOES_NOT_EXIST))
+            self._refuse(asked, ParameterValueError(words, WriteError.DOES_NOT_EXIST))
             return
         asked = asked._replace(component=each.component)
         try:
             asked = asked._replace(value=self._acceptable(each, number, asked.value))
-        except ParameterError as error:
+        except ParameterValueError as error:
             self._refuse(asked, error)
             return
         if asked not in self._writes.values():
@@ -189,12 +190,12 @@ class ParameterServer:
         """Return a value as the port takes it."""
         described = each.descriptions[number]
         if each.is_silent:
-            raise ParameterError(f"{described.id}: the {each.name} is silent", WriteError.SILENT)
+            raise ParameterValueError(f"{described.id}: the {each.name} is silent", WriteError.SILENT)
         if len(self._writes) >= _MOST_WRITES:
-            raise ParameterError(f"{described.id}: {_MOST_WRITES} writings are under way", WriteError.DENIED)
+            raise ParameterValueError(f"{described.id}: {_MOST_WRITES} writings are under way", WriteError.DENIED)
         return fitting(described, value)
 
-    def _refuse(self, asked: _Asked, error: ParameterError) -> None:
+    def _refuse(self, asked: _Asked, error: ParameterValueError) -> None:
         each, number = self._found(asked)
         value = None if each is None or number is None or each.is_silent else each.values[number]
         self._ended(asked, WriteOutcome(0, error.error, value, str(error)))
@@ -292,8 +293,8 @@ class ParameterServer:
 
 def _asked(received: Received, session: int, number: int, value: Value) -> _Asked:
     values = received.values
-    sender, component = (received.system, received.component), int(values["target_component"])  # type: ignore[arg-type]
-    return _Asked(sender, session, number, component, fitted(str(values["param_id"]), LONGEST_ID), value)
+    sender, component = (received.system, received.component), whole(values, "target_component")
+    return _Asked(sender, session, number, component, fitted(text(values, "param_id"), LONGEST_ID), value)
 
 
 def _say(each: ParameterSet, number: int, priority: Priority, outbox: Outbox) -> None:

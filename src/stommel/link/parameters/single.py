@@ -12,6 +12,7 @@ from stommel.link.parameters.port import ParameterKind, Value, WriteError
 from stommel.link.patience import WITHIN, Patience
 from stommel.link.question import Pace, Question
 from stommel.link.service import Received
+from stommel.link.values import real, text, whole
 from stommel.messages.mavlink import Fields
 
 
@@ -91,20 +92,20 @@ class SingleParameters:
             if received.name == "PARAMETER_OUTCOME":
                 self._take_outcome(single, values, t)
         elif received.name == "PARAM_VALUE" and values["param_type"] in list(ParameterKind):
-            value = value_of(int(values["param_type"]), float(values["param_value"]))  # type: ignore[arg-type]
+            value = value_of(whole(values, "param_type"), real(values, "param_value"))
             self._end(single, Ending.WHOLE, value, "", t)
         elif received.name == "PARAM_ERROR":
-            self._end(single, Ending.REFUSED, None, _error_words(int(values["error"])), t)  # type: ignore[arg-type]
+            self._end(single, Ending.REFUSED, None, _error_words(whole(values, "error")), t)
 
     def _take_outcome(self, single: _Single, values: Fields, t: float) -> None:
         if (values["session"], values["number"]) != (self._session, single.ticket):
             return
-        told = float(values["value"])  # type: ignore[arg-type]
+        told = real(values, "value")
         value = None if isnan(told) else told
         if values["error"] == WriteError.NONE:
             self._end(single, Ending.WHOLE, value, "", t)
         else:
-            words = str(values["words"]) or _error_words(int(values["error"]))  # type: ignore[arg-type]
+            words = text(values, "words") or _error_words(whole(values, "error"))
             self._end(single, Ending.REFUSED, value, words, t)
 
     def _end(self, single: _Single, ending: Ending, value: Value | None, words: str, t: float) -> None:

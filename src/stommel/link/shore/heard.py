@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from stommel.link.outbox import Outbox
 from stommel.link.service import Received
+from stommel.link.values import text, whole
 from stommel.messages.mavlink import Fields
 
 MOST_TEXTS, MOST_SUMMARIES, MOST_SAMPLES = 200, 1000, 10_000
@@ -60,9 +61,7 @@ class Heard:
         if name == "STATUSTEXT":
             self._take_text(values, t)
         elif name == "DIVE_SUMMARY":
-            begin = values["time_begin_unix_ms"]
-            assert isinstance(begin, int)
-            self.summaries[begin] = values
+            self.summaries[whole(values, "time_begin_unix_ms")] = values
             while len(self.summaries) > MOST_SUMMARIES:
                 del self.summaries[next(iter(self.summaries))]
         elif name == "CTD_SAMPLE":
@@ -73,18 +72,16 @@ class Heard:
 
     def _take_text(self, values: Fields, t: float) -> None:
         """Put the parts of a long sentence together; one of which a part is lost is told as far as it came."""
-        number, chunk, severity = values["id"], values["chunk_seq"], values["severity"]
-        words = values["text"]
-        assert isinstance(words, str)
-        assert isinstance(number, int)
-        assert isinstance(chunk, int)
-        assert isinstance(severity, int)
+        number, chunk, severity = (whole(values, name) for name in ("id", "chunk_seq", "severity"))
+        words = text(values, "text")
         if number:
             parts = self._parts.setdefault(number, {})
+            if chunk in parts:
+                parts.clear()  # of a text whose end was lost, before the vehicle began to count anew
             parts[chunk] = words
             while len(self._parts) > _MOST_PARTS:
                 del self._parts[next(iter(self._parts))]
-            if len(words.encode()) == _TEXT:
+            if len(words.encode("utf-8", "replace")) >= _TEXT:  # not shorter where a letter was cut
                 return  # more of it follows
             del self._parts[number]
             words = "".join(parts.get(k, " ... ") for k in range(max(parts) + 1))

@@ -89,6 +89,8 @@ class ShoreEnd:
             self.parameters, self.orders, self.waypoints, self.statistics,
         ]  # fmt: skip
         self._passing: list[Service] = []
+        self._resting: list[Download | Upload] = []
+        """Transfers that were paused here."""
         self._arrange()
 
     def take(self, data: bytes, t: float) -> None:
@@ -96,11 +98,20 @@ class ShoreEnd:
         self.session.take(data, t)
 
     def poll(self, t: float, room: int) -> bytes:
-        """Return at most so many bytes to send; transfers rest while the vehicle is not heard, and go on when it is."""
-        heard = self.is_heard(t)
-        for transfer in self._passing:
-            if isinstance(transfer, Download | Upload) and heard == transfer.is_paused and not transfer.state.is_over:
-                transfer.resume(t) if heard else transfer.pause()
+        """Return at most so many bytes to send; transfers rest while the vehicle is not heard, and go on when it is.
+
+        What somebody else has paused rests until that one resumes it.
+        """
+        if self.is_heard(t):
+            for transfer in self._resting:
+                transfer.resume(t)
+            self._resting = []
+        else:
+            transfers = [each for each in self._passing if isinstance(each, Download | Upload)]
+            going = [each for each in transfers if not each.is_paused and not each.state.is_over]
+            for transfer in going:
+                transfer.pause()
+            self._resting += going
         return self.session.poll(t, room)
 
     def is_heard(self, t: float) -> bool:
@@ -115,11 +126,13 @@ class ShoreEnd:
 
     def download(self, path: str, disk: Disk, name: str, patience: float | None = None) -> Download:
         """Begin to fetch a file, or go on where it was left."""
-        return self._add(Download(OURS, self.vehicle, path, disk, name, patience=patience))
+        traffic = self.statistics.traffic
+        return self._add(Download(OURS, self.vehicle, path, disk, name, patience=patience, traffic=traffic))
 
     def upload(self, content: bytes, path: str, patience: float | None = None) -> Upload:
         """Begin to send a file, or go on where it was left."""
-        return self._add(Upload(OURS, self.vehicle, content, path, patience=patience))
+        traffic = self.statistics.traffic
+        return self._add(Upload(OURS, self.vehicle, content, path, patience=patience, traffic=traffic))
 
     def listing(self, folder: str, patience: float | None = None) -> Listing:
         """Begin to list a folder."""
@@ -132,6 +145,7 @@ class ShoreEnd:
     def drop(self, service: Download | Upload | Listing | Release) -> None:
         """End a service of a file, whatever its state."""
         self._passing = [each for each in self._passing if each is not service]
+        self._resting = [each for each in self._resting if each is not service]
         self._arrange()
 
     def _add(self, service: S) -> S:

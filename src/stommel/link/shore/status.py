@@ -8,6 +8,7 @@ from stommel.link.shore.heard import Heard
 from stommel.messages.mavlink import FieldValue, entry_words
 
 _ARMED = 128
+_DEGREES = math.degrees(1.0)
 
 
 class Cell(NamedTuple):
@@ -26,13 +27,17 @@ def _of(field: str, scale: float = 1.0) -> Callable[[dict[str, Any]], float | No
     def value(fields: dict[str, Any]) -> float | None:
         found: FieldValue = fields[field]
         assert isinstance(found, int | float)
-        return None if math.isnan(found) else found * scale
+        return found * scale if math.isfinite(found) else None
 
     return value
 
 
 def _unless(field: str, unknown: int, scale: float = 1.0) -> Callable[[dict[str, Any]], float | None]:
     return lambda fields: None if fields[field] == unknown else fields[field] * scale
+
+
+def _heading(fields: dict[str, Any]) -> float | None:
+    return math.degrees(fields["yaw"]) % 360.0 if math.isfinite(fields["yaw"]) else None
 
 
 def _unit(form: str, unit: str) -> Callable[[Any], str]:
@@ -73,9 +78,9 @@ CELLS = (
     Cell("waypoint_distance_m", "to the waypoint", _WAY, _of("waypoint_distance"), lambda m: f"{m / 1e3:.2f} km"),
     Cell("current_north_m_s", "current to the north", _WAY, _of("current_north"), _unit(".2f", "m/s")),
     Cell("current_east_m_s", "current to the east", _WAY, _of("current_east"), _unit(".2f", "m/s")),
-    Cell("heading_deg", "heading", "ATTITUDE", lambda f: math.degrees(f["yaw"]) % 360.0, _unit(".0f", "deg")),
-    Cell("pitch_deg", "pitch", "ATTITUDE", lambda f: math.degrees(f["pitch"]), _unit(".1f", "deg")),
-    Cell("roll_deg", "roll", "ATTITUDE", lambda f: math.degrees(f["roll"]), _unit(".1f", "deg")),
+    Cell("heading_deg", "heading", "ATTITUDE", _heading, _unit(".0f", "deg")),
+    Cell("pitch_deg", "pitch", "ATTITUDE", _of("pitch", _DEGREES), _unit(".1f", "deg")),
+    Cell("roll_deg", "roll", "ATTITUDE", _of("roll", _DEGREES), _unit(".1f", "deg")),
     Cell("ballast_ml", "ballast volume", "BUOYANCY_ENGINE_STATE", _of("ballast", 1e6), _unit(".0f", "ml")),
     Cell("moving_mass_mm", "moving mass", "MOVING_MASS_STATE", _of("position", 1e3), _unit(".1f", "mm")),
     Cell("voltage_v", "battery", _POWER, _of("voltage"), _unit(".2f", "V")),

@@ -21,6 +21,7 @@ from stommel.link.signing.guard import Guard, Mode
 from stommel.link.signing.keys import FIRST_MADE, LAST_MADE, SIZE, Key
 from stommel.link.signing.stamps import EPOCH, PER_SECOND
 from stommel.link.timing import RetransmissionTimer
+from stommel.link.values import octets, whole
 from stommel.messages.mavlink import Fields, FieldValue, enumeration
 
 TIME_LIMIT = 300.0
@@ -111,10 +112,10 @@ class KeyOffer:
         if received.values.get("change") != self._number:
             return
         if received.name == "KEY_CHANGE_ANSWER":
-            self._take_answer(bytes(_bytes(received.values, "public_key")), t)
+            self._take_answer(octets(received.values, "public_key"), t)
         elif received.name == "KEY_CHANGE_REFUSED":
             names = {number: name for name, number in enumeration("KEY_CHANGE_REFUSAL").items()}
-            reason = _REFUSALS.get(names.get(int(_number(received.values, "reason")), ""), "for a reason unknown here")
+            reason = _REFUSALS.get(names.get(whole(received.values, "reason"), ""), "for a reason unknown here")
             self.outcome = ChangeOutcome(ChangeState.FAILED, f"the vehicle refuses: {reason}")
 
     def _take_answer(self, answer: bytes, t: float) -> None:
@@ -191,7 +192,7 @@ class KeyAnswer:
         self._waiting.clear()
 
     def _take_offer(self, received: Received) -> None:
-        number, offered = int(_number(received.values, "change")), bytes(_bytes(received.values, "public_key"))
+        number, offered = whole(received.values, "change"), octets(received.values, "public_key")
         to: Fields = {
             "change": number, "target_system": received.system, "target_component": received.component,
         }  # fmt: skip
@@ -225,22 +226,12 @@ class KeyAnswer:
         self._waiting = [*self._waiting, (name, values)][-4:]
 
     def _take_key_in_clear(self, values: Fields) -> None:
-        secret = bytes(_bytes(values, "secret_key"))
+        secret = octets(values, "secret_key")
         if not any(secret):
             self.notes = [*self.notes, "no key was taken: zeros are none, and signing is not ended over the link"][-4:]
             return
-        made = EPOCH + int(_number(values, "initial_timestamp")) // PER_SECOND
+        made = EPOCH + whole(values, "initial_timestamp") // PER_SECOND
         try:
             self._guard.replace(Key(secret), min(max(made, FIRST_MADE), LAST_MADE))
         except StommelError as error:
             self.notes = [*self.notes, f"no key was taken: {error}"][-4:]
-
-
-def _bytes(values: Fields, name: str) -> bytes:
-    value = values.get(name, b"")
-    return value if isinstance(value, bytes) else b""
-
-
-def _number(values: Fields, name: str) -> int:
-    value = values.get(name, 0)
-    return value if isinstance(value, int) else 0

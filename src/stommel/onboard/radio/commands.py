@@ -1,6 +1,7 @@
 """Commands that came by radio, as the coordinator carries them out: what each waits for, and when it is done."""
 
 from collections.abc import Callable
+from math import isfinite
 from typing import NamedTuple, Protocol
 
 from stommel.errors import StommelError
@@ -14,8 +15,6 @@ from stommel.onboard.coordination.view import View
 
 MOST_REMEMBERED = 64
 """Commands whose way is followed; of those that are over the oldest is forgotten."""
-NO_WORD = 30.0
-"""Time without a decision after which nobody expects one [s]."""
 SELF_TEST_TIME = 180.0
 """Longest time that a self-test may take [s]."""
 
@@ -165,6 +164,8 @@ def _come_up(_: VehicleCommands, begun: _Begun, view: View) -> Progress:
     if view.executive.surfaced:
         return DONE
     left = view.situation.readings.depth / begun.depth if begun.depth > 0.0 else 1.0
+    if not isfinite(left):  # the pressure sensor is silent
+        return IN_PROGRESS
     return Progress(State.IN_PROGRESS, min(max(round(100.0 * (1.0 - left)), 0), 99))
 
 

@@ -6,17 +6,22 @@ the first to go when room is needed. The inbox takes what a shore sends; nothing
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from typing import NamedTuple, TypeVar
 
 from stommel.link.files.disk import Disk
 from stommel.link.files.port import Entry, FileRefusalError, FtpError, Path
-from stommel.link.files.received_file import Identity, ReceivedFile, ReceptionError
+from stommel.link.files.received_file import Identity, ReceivedFile, ReceivedFileError
 from stommel.onboard.coordination.logbook.file_names import log_name
 from stommel.onboard.coordination.logbook.logbook import Logbook
 
 LOG, MISSIONS, INBOX = "log", "missions", "inbox"
 MOST_INBOX = 8 << 20
 """Bytes that the inbox holds."""
+
+_PART = ".part"
+_PARTS = (_PART, f"{_PART}.ranges", f"{_PART}.ranges.new")
+"""Endings of what `ReceivedFile` keeps until the file is whole."""
 
 Pages = Callable[[], Mapping[str, bytes]]
 T = TypeVar("T")
@@ -84,8 +89,16 @@ class VehicleFiles:
         raise FileRefusalError(FtpError.FILE_NOT_FOUND, f"{'/'.join(folder)}: there is no such folder")
 
     def _received(self) -> dict[str, int]:
-        parts = (".part", ".part.ranges", ".part.ranges.new")
-        return {name: size for name, size in self._inbox.sizes().items() if not name.endswith(parts)}
+        return {name: size for name, size in self._inbox.sizes().items() if not name.endswith(_PARTS)}
+
+    def _parts_of(self, path: Path) -> list[str]:
+        """What is kept of a file of the inbox that is not whole."""
+        sizes = self._of_disk(self._inbox.sizes) if len(path) == 2 and path[0] == INBOX else {}
+        return [part for ending in _PARTS if (part := f"{path[-1]}{ending}") in sizes]
+
+    def _unfinished(self) -> list[str]:
+        """Names of files of the inbox of which a part has come."""
+        return sorted(name[: -len(_PART)] for name in self._of_disk(self._inbox.sizes) if name.endswith(_PART))
 
     def _whole(self, folder: str, name: str) -> bytes:
         if folder == MISSIONS:
@@ -108,10 +121,10 @@ class VehicleFiles:
         """Begin to receive a file of the inbox, or go on."""
         name = self._writable(path)
         if size > self._room(name):
-            raise FileRefusalError(FtpError.FAIL_ERRNO, f"{INBOX}: has room for {self._room(name)} bytes, not {size}")
+            raise self._full(self._room(name), size)
         try:
             return InboxPart(self._inbox, name, Identity("/".join(path), size, sha256.hex()))
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             raise FileRefusalError(FtpError.FAIL_ERRNO, str(error)) from error
 
     def release(self, path: Path) -> None:
@@ -128,7 +141,12 @@ class VehicleFiles:
             raise FileRefusalError(FtpError.FILE_PROTECTED, f"{'/'.join(path)}: is still being written")
 
     def remove(self, path: Path) -> None:
-        """Remove a file of the inbox; data are given up only to who has them whole."""
+        """Remove a file of the inbox, or what has come of one; data are given up only to who has them whole."""
+        parts = self._parts_of(path)
+        for part in parts:
+            self._of_disk(partial(self._inbox.remove, part))
+        if parts and path[1] not in self._of_disk(self._received):
+            return
         self.size(path)
         name = self._writable(path)
         self._of_disk(lambda: self._inbox.remove(name))
@@ -155,8 +173,15 @@ class VehicleFiles:
         return path[1]
 
     def _room(self, name: str) -> int:
+        """Bytes that a file may have: it takes the place of its part, and in the end that of a file of its name."""
+        own = (name, *(f"{name}{ending}" for ending in _PARTS))
         sizes = self._of_disk(self._inbox.sizes)
-        return max(0, MOST_INBOX - sum(size for other, size in sizes.items() if other != name))
+        return max(0, MOST_INBOX - sum(size for other, size in sizes.items() if other not in own))
+
+    def _full(self, room: int, size: int) -> FileRefusalError:
+        unfinished = ", ".join(self._unfinished())
+        begun = f"; begun there, and not whole: {unfinished}" if unfinished else ""
+        return FileRefusalError(FtpError.FAIL_ERRNO, f"{INBOX}: has room for {room} bytes, not {size}{begun}")
 
     def _of_disk(self, act: Callable[[], T]) -> T:
         try:
@@ -195,7 +220,7 @@ class StagedFile:
 
     def commit(self) -> None:
         """Let it stand under its name."""
-        part = f"{self._name}.part"
+        part = f"{self._name}{_PART}"
         try:
             with suppress(FileNotFoundError):
                 self._disk.remove(part)
@@ -217,14 +242,14 @@ class InboxPart(ReceivedFile):
         """Keep received bytes."""
         try:
             super().write(offset, data, t)
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             raise FileRefusalError(FtpError.FAIL_ERRNO, str(error)) from error
 
     def finish(self) -> str:
         """Let the file stand under its name."""
         try:
             return super().finish()
-        except ReceptionError as error:
+        except ReceivedFileError as error:
             raise FileRefusalError(FtpError.FAIL, str(error)) from error
 
 

@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from math import degrees, isclose, radians
 from typing import Protocol
 
@@ -11,7 +12,7 @@ from stommel.control.orders import Orders
 from stommel.control.orders_file import orders_text
 from stommel.errors import FileError, StommelError
 from stommel.link.missions.port import HeldOrders, Waypoint, WaypointPlan, WaypointProgress, WaypointRefusal
-from stommel.onboard.coordination.stores.missions import MissionStore
+from stommel.onboard.coordination.stores.missions import MissionStore, MissionStoreError
 
 _E7 = 1e7
 _SINGLE = 1e-6
@@ -138,10 +139,13 @@ class MissionPort:
         return f"mission {held.number}: {held.name}"
 
     def texts(self) -> Mapping[str, bytes]:
-        """Orders files that are held, by what a shore sees them under."""
-        store = self._store
-        held = {"active.orders": store.active, "previous.orders": store.previous}
-        return {name: store.text(mission) for name, mission in held.items() if mission is not None}
+        """Orders files that are held and can be read, by what a shore sees them under."""
+        store, texts = self._store, {}
+        for name, mission in (("active.orders", store.active), ("previous.orders", store.previous)):
+            if mission is not None:
+                with suppress(MissionStoreError):  # damaged: for the shore it is not there
+                    texts[name] = store.text(mission)
+        return texts
 
     # waypoints
 

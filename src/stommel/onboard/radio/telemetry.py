@@ -79,8 +79,8 @@ class Telemetry:
             return
         for name, due in self._due.items():
             if t >= due and outbox.room(Priority.STATE) > 512:
+                self._due[name] = t + self._intervals[name]  # first: what fails is left until then, and ends no other
                 self._say(_ROWS[name], outbox)
-                self._due[name] = t + self._intervals[name]
         self._next = min(self._due.values())
 
     def request(self, number: int, t: float) -> bool:
@@ -108,18 +108,18 @@ class Telemetry:
         if len(self._words) < _MOST_WORDS // 2 and (severity, words) not in self._words:
             self._words.append((severity, words))
 
-    def _say(self, row: TelemetryRow, outbox: Outbox) -> bool:
+    def _say(self, row: TelemetryRow, outbox: Outbox) -> None:
         fields = None if self._seen is None else row.fields(self._seen)
-        if fields is None:
-            return False
-        outbox.put(row.priority, row.name, fields)
-        return True
+        if fields is not None:
+            outbox.put(row.priority, row.name, fields)
 
     def _tell(self, outbox: Outbox) -> None:
         while self._words and outbox.room(Priority.STATE) > 512:
             severity, words = self._words.popleft()
             encoded = words.encode()
             chunks = [encoded[at : at + _TEXT] for at in range(0, len(encoded), _TEXT)]
+            if len(chunks) > 1 and len(chunks[-1]) == _TEXT:
+                chunks.append(b"")  # the end is told by a chunk that is not full
             self._text = self._text % 0xFFFF + 1
             number = self._text if len(chunks) > 1 else 0
             for sequence, chunk in enumerate(chunks):

@@ -100,7 +100,7 @@ def _display(seen: Observed) -> Fields | None:
         "groundspeed": math.hypot(north, east),
         "alt": -readings.depth,
         "climb": -down,
-        "heading": round(math.degrees(readings.psi)) % 360,
+        "heading": clipped(math.degrees(readings.psi), 16, signed=True) % 360,
     }
 
 
@@ -120,7 +120,9 @@ def _position(seen: Observed) -> Fields | None:
         "vx": clipped(100.0 * north, 16, signed=True),
         "vy": clipped(100.0 * east, 16, signed=True),
         "vz": clipped(100.0 * down, 16, signed=True),
-        "hdg": clipped(100.0 * (math.degrees(readings.psi) % 360.0), 16, signed=False) % 36000,
+        "hdg": clipped(100.0 * math.degrees(readings.psi), 32, signed=True) % 36000
+        if math.isfinite(readings.psi)
+        else _UNKNOWN_U16,
     }
 
 

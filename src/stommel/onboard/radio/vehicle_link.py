@@ -15,7 +15,7 @@ from stommel.link.missions.waypoint_server import WaypointServer
 from stommel.link.parameters.server import ParameterServer
 from stommel.link.presence import Presence
 from stommel.link.rate import LineRate
-from stommel.link.service import VEHICLE_COMPONENT, Service
+from stommel.link.service import VEHICLE_COMPONENT
 from stommel.link.session import Session
 from stommel.link.signing.challenge import Challenge
 from stommel.link.signing.guard import Guard, PortGuard
@@ -69,8 +69,6 @@ class VehicleLink:
         Lets a mission be flown that was taken.
     files
         That the shore may see.
-    services
-        More of them.
     restart
         Starts the software anew; None where nobody would.
     bench
@@ -88,7 +86,6 @@ class VehicleLink:
         missions: MissionPort,
         fly: Callable[[StoredMission], None],
         files: FilePort,
-        services: tuple[Service, ...] = (),
         restart: Callable[[], None] | None = None,
         *,
         bench: bool = False,
@@ -121,16 +118,17 @@ class VehicleLink:
             ParameterServer(settings.system, self.parameters),
             OrdersServer(*me, missions, missions),
             WaypointServer(*me, missions, warn),
-            *services,
             self.telemetry,
             self._reports,
             self.statistics,
-            FileServer(*me, files),
+            FileServer(*me, files, self.statistics.traffic),
         ]
 
     def observe(self, t: float) -> None:
-        """Look at what the coordinator has decided at a time [s]; it learns how the key is."""
+        """Look at what the coordinator has decided at a time [s], once for each decision; it learns how the key is."""
         self._coordinator.key_alarm = self.guard.alarm
+        if self._seen is not None and self._coordinator.view is self._seen.view:
+            return  # the coordinator sleeps: what it said then is not said again, nor dated anew
         seen = observe(self._coordinator, self._utc(t))
         if seen is not None:
             self._seen = seen

@@ -1,12 +1,11 @@
 """The folders that a vehicle's software writes in: one program at a time has them."""
 
-import os
-import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from stommel.errors import FileError, Problem
+from stommel.files.folder_lock import FolderInUseError, locked
 from stommel.files.folder_storage import FolderStorage
 from stommel.link.files.folder_disk import FolderDisk
 from stommel.onboard.coordination.config import Configuration
@@ -76,22 +75,15 @@ def claimed(configuration: Configuration) -> Iterator[None]:
     with ExitStack() as held:
         for key in by_path.values():
             storage_of(configuration, key)
-            if sys.platform != "win32":
-                _lock(configuration, key, held)
+            _lock(configuration, key, held)
         yield
 
 
 def _lock(configuration: Configuration, key: str, held: ExitStack) -> None:
-    import fcntl  # noqa: PLC0415 - not on Windows
-
-    descriptor = os.open(_path(configuration, key), os.O_RDONLY)
-    held.callback(os.close, descriptor)
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
+        held.enter_context(locked(_path(configuration, key)))
+    except FolderInUseError:
         raise _refused(configuration, key, "another `stommel vehicle run` is writing there") from None
-    except OSError:
-        return  # not every file system has locks
 
 
 def _path(configuration: Configuration, key: str) -> Path:

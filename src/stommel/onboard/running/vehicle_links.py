@@ -69,7 +69,7 @@ class VehicleLinks:
 
         def link(settings: LinkSettings, storage: Storage, *, on_bench: bool) -> VehicleLink:
             return VehicleLink(
-                settings, coordinator, self.guard, utc, os.urandom, storage, port, fly, files, (), restart,
+                settings, coordinator, self.guard, utc, os.urandom, storage, port, fly, files, restart,
                 bench=on_bench,
             )  # fmt: skip
 

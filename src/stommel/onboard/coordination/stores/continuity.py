@@ -4,8 +4,8 @@ import json
 import math
 from typing import NamedTuple
 
+from stommel.files.sealing import sealed, unsealed
 from stommel.files.storage import Storage, replace_whole
-from stommel.onboard.coordination.stores.sealing import sealed, unsealed
 
 _COPIES = ("continuity-a", "continuity-b")
 _MOST_BYTES = 1 << 16

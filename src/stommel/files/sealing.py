@@ -1,4 +1,4 @@
-"""Small files that know when they are damaged: what every store of the vehicle keeps."""
+"""Small files that know when they are damaged: what the stores of vehicle and shore keep."""
 
 import hashlib
 

@@ -329,10 +329,10 @@ def test_a_vehicle_that_does_not_sign_is_not_believed(shore: Shore) -> None:
 def test_a_second_program_is_kept_out_of_the_folder(shore: Shore) -> None:
     from stommel.files.folder_lock import locked
 
-    (shore.folder / "state").mkdir(exist_ok=True)
-    with locked(shore.folder / "state"):
+    (shore.folder / "state" / "vehicle-1").mkdir(parents=True, exist_ok=True)
+    with locked(shore.folder / "state" / "vehicle-1"):
         found = shore.call("status")
     assert (found.status, found.out) == (2, "")
     told = "another `stommel link` speaks to this vehicle; wait for its end, or give another folder by --state"
-    assert found.err == f"error: state: {told}\n"
+    assert found.err == f"error: state/vehicle-1: {told}\n"
     assert shore.call("status", "--seconds", "0.5").status == 0

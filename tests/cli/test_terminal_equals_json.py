@@ -320,6 +320,10 @@ def in_the_loop(d: Any) -> dict[str, Any]:
         "bus": [
             100.0 * d["bus_load_share"], d["frames_to_coordinator"], d["frames_lost"], d["frames_rejected"],
         ],
+        "radio": [
+            d["radio"]["sent_bytes"] / 1e3,
+            *(d["radio"][f"frames_{what}"] for what in ("heard", "lost", "refused")),
+        ],
     }  # fmt: skip
 
 

@@ -39,6 +39,10 @@ PURE = {
     "surface", "descent", "inflection", "ascent", "recovery", "drift",
     # of the vehicle's software: a number by which it is called, a count, shares
     "vehicle_id", "samples", "reserve", "speed_error", "correction",
+    # of its radio: shares of packets and bits
+    "loss", "bit_error_rate",
+    # parameters of the nodes by name, each in the unit that its node's table says
+    "motion", "acquisition",
 }  # fmt: skip
 """Numbers that have no unit of their own."""
 

@@ -208,7 +208,9 @@ def test_replay_gives_identical_bytes(tmp_path: Path) -> None:
     first, second, other = replay(path, 5), replay(path, 5), replay(path, 6)
     assert first == second
     assert first.digest != other.digest
-    written = tmp_path / "again.toml"
+    # of the same name: the orders on the vehicle's disk say from which file they were made
+    written = tmp_path / "again" / path.name
+    written.parent.mkdir()
     written.write_text(scenario_text(kit, 5, first.faults, "why it failed"))
     assert load_scenario(written).faults == first.faults
     assert replay(written).digest == first.digest

@@ -257,7 +257,7 @@ class CompassDriver:
         if self._began != self._began:
             return t
         if self._set.polled and self._state is CompassState.SAMPLING:
-            return min(self._unanswered, t)
+            return min(max(self._last, self._unanswered - self._set.interval), t)
         return max(self._last, self._began)
 
     def _state_at(self, t: float) -> tuple[CompassState, str]:

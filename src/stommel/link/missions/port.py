@@ -41,6 +41,8 @@ class WaypointProgress(NamedTuple):
     """Number of the last one that was reached."""
     state: int = 0
     """MISSION_STATE."""
+    total: int | None = None
+    """Number of waypoints that are flown; None: as many as are held."""
 
 
 class WaypointPort(Protocol):

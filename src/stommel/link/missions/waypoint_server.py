@@ -268,8 +268,10 @@ class WaypointServer:
         if t < self._tell_at and progress == self._told:
             return
         self._told, self._tell_at = progress, t + CURRENT_EVERY
-        plan = self._port.plan()
-        total = 0xFFFF if plan is None else len(plan.waypoints)
+        total = progress.total
+        if total is None:
+            plan = self._port.plan()
+            total = 0xFFFF if plan is None else len(plan.waypoints)
         told: Fields = {"seq": progress.current or 0, "total": total, "mission_state": progress.state}
         outbox.put(Priority.STATE, "MISSION_CURRENT", told)
 

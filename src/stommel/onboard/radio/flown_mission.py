@@ -25,7 +25,7 @@ class FlownMission:
         else:
             state = "ACTIVE" if view.executive.started else "NOT_STARTED"
         return WaypointProgress(
-            min(number, count - 1) if count else None, number - 1 if number else None, _state(state)
+            min(number, count - 1) if count else None, number - 1 if number else None, _state(state), count
         )
 
     def aim_at(self, number: int) -> str:

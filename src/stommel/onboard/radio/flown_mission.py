@@ -18,7 +18,7 @@ class FlownMission:
         if pilot.orders is None:
             return WaypointProgress(None, None, _state("NO_MISSION"))
         if view is None or pilot.memory is None:
-            return WaypointProgress(0, None, _state("NOT_STARTED"))
+            return WaypointProgress(0, None, _state("NOT_STARTED"), len(pilot.orders.waypoints))
         number, count = int(pilot.memory["waypoint"]), len(pilot.orders.waypoints)
         if pilot.phase == RECOVERY and number >= count:
             state = "COMPLETE"

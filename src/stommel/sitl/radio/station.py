@@ -51,9 +51,9 @@ class Station:
     def link(self, coordinator: Coordinator, expires: float) -> VehicleLink:
         """Return the vehicle's end for a coordinator that has started; missions that come expire with the first."""
         start = self._setup.loop.start
-        if self._store is not None:  # what was taken before the restart is flown on
-            self._store = self._opened()
         port = MissionPort(self._missions, FlownMission(coordinator))
+        if self._store is not None:  # what was taken before the restart is flown on
+            port.opened = self._store = self._opened()
         return VehicleLink(
             self._settings,
             coordinator,

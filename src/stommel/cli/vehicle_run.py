@@ -1,6 +1,5 @@
 """`stommel vehicle run`: the vehicle's coordination software on real ports."""
 
-import hashlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -93,10 +92,7 @@ def until_asked() -> Iterator[Callable[[], bool]]:
 def _load(store: "MissionStore", path: Path) -> None:
     from stommel.files.opening import TOML_MIB, read_bytes
 
-    content = read_bytes(path, TOML_MIB)
-    store.announce(len(content), hashlib.sha256(content).hexdigest())
-    store.take(0, content)
-    store.switch()
+    store.take_whole(read_bytes(path, TOML_MIB))
 
 
 def _answer(figures: "Figures") -> dict[str, Any]:

@@ -3,9 +3,10 @@
 import errno
 import os
 import stat
-import sys
 from contextlib import suppress
 from pathlib import Path
+
+from stommel.files.whole import sync_names
 
 
 class FolderFile:
@@ -71,11 +72,5 @@ class FolderStorage:
         self._sync_names()
 
     def _sync_names(self) -> None:
-        """Bring the folder's names to the disk; Windows keeps them by itself, and opens no folder."""
-        if sys.platform == "win32":
-            return
-        descriptor = os.open(self._folder, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)
+        """Bring the folder's names to the disk."""
+        sync_names(self._folder)

@@ -107,7 +107,7 @@ def write_private(path: Path, content: str) -> None:
             file.flush()
             os.fsync(descriptor)
         temporary.replace(path)
-        _sync_names(path.parent)
+        sync_names(path.parent)
     except OSError as error:
         raise OutputError(f"{shown(path)}: cannot be written: {error.strerror or error}") from error
     finally:
@@ -115,7 +115,7 @@ def write_private(path: Path, content: str) -> None:
             temporary.unlink(missing_ok=True)
 
 
-def _sync_names(folder: Path) -> None:
+def sync_names(folder: Path) -> None:
     """Bring a folder's names to the disk; Windows keeps them by itself, and opens no folder."""
     if sys.platform == "win32":
         return

@@ -10,6 +10,7 @@ from stommel.link.service import Peer, Received
 from stommel.link.session import Session
 from stommel.link.time_sync import TimeSync
 from stommel.link.traffic import Traffic
+from stommel.link.values import boot_ms
 from stommel.messages.mavlink import Fields
 
 NAME = "LINK_STATISTICS"
@@ -155,7 +156,7 @@ class Statistics:
 def _fields(peer: Peer, seen: LinkStatistics, t: float) -> Fields:
     """Fields of the message."""
     return {
-        "time_boot_ms": int(max(t, 0.0) * 1e3) & _MOST,
+        "time_boot_ms": boot_ms(t),
         "peer_system": peer[0],
         "peer_component": peer[1],
         "good": min(seen.good, _MOST),

@@ -7,6 +7,11 @@ from stommel.messages.mavlink import FieldValue
 Values = Mapping[str, FieldValue]
 
 
+def boot_ms(t: float) -> int:
+    """Time of a sender [s] as its messages say it [ms]; it begins anew after 49 days."""
+    return int(max(t, 0.0) * 1e3) & 0xFFFFFFFF
+
+
 def whole(values: Values, name: str) -> int:
     """A whole number."""
     value = values[name]

@@ -1,6 +1,7 @@
 """`stommel link mission show|upload|download|roll-back`: the orders that a vehicle flies."""
 
 import hashlib
+from collections.abc import Callable
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -87,8 +88,7 @@ def upload(
                 found = client.progress(line.now())
                 report(found.done / found.of if found.of else None, f"{found.done} of {found.of} bytes")
 
-            line.until(lambda: client.outcome is not None, within + 1.0, watch)
-        _require_whole(client.outcome, within)
+            _require_end(line, within, watch)
         held = _held(line, within)
     if not only_check and held.sha256 != hashlib.sha256(content).digest():
         raise LinkError(f"the vehicle holds other orders: {held.name}, number {held.number}")
@@ -147,8 +147,7 @@ def roll_back(
         if not held.previous:
             raise LinkError("the vehicle holds no orders before the present ones")
         line.end.orders.roll_back(held.previous, line.now(), within)
-        line.until(lambda: line.end.orders.outcome is not None, within + 1.0)
-        _require_whole(line.end.orders.outcome, within)
+        _require_end(line, within)
         held = _held(line, within)
     finish(_row(held), None, as_json, _show)
 
@@ -156,16 +155,18 @@ def roll_back(
 def _held(line: "Line", within: float) -> "HeldOrders":
     client = line.end.orders
     client.ask(line.now(), within)
-    line.until(lambda: client.outcome is not None, within + 1.0)
-    _require_whole(client.outcome, within)
+    _require_end(line, within)
     assert client.outcome is not None
     assert client.outcome.held is not None
     return client.outcome.held
 
 
-def _require_whole(outcome: Any, within: float) -> None:
+def _require_end(line: "Line", within: float, watch: Callable[[], None] | None = None) -> None:
+    """Drive the line until the request about orders has ended well."""
     from stommel.link.endings import Ending
 
+    line.until(lambda: line.end.orders.outcome is not None, within + 1.0, watch)
+    outcome = line.end.orders.outcome
     if outcome is None:
         raise LinkError(f"no answer within {within:g} s; the vehicle holds what it held, or the new orders, whole")
     if outcome.ending is not Ending.WHOLE:

@@ -174,6 +174,9 @@ class Download:
         if self._starts >= _MOST_STARTS or self._wanted is None:
             self._end(State.FAILED, f"{self.path}: changes while it is read: {reason}")
             return
+        self._begin_anew(reason, t)
+
+    def _begin_anew(self, reason: str, t: float) -> None:
         self.file = self._wanted = None
         self.reason = f"begun again: {reason}"
         self.state = State.IDENTIFYING
@@ -217,10 +220,7 @@ class Download:
             self._starts += 1
             if self._starts >= _MOST_STARTS:
                 raise
-            self.reason = f"begun again: {error}"
-            self.file = self._wanted = None
-            self.state = State.IDENTIFYING
-            self._asking.start(t)
+            self._begin_anew(str(error), t)
             return
         self.state = State.WHOLE
         if kept_as != self._name:

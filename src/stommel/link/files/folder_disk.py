@@ -3,9 +3,10 @@
 import errno
 import os
 import stat
-import sys
 from contextlib import suppress
 from pathlib import Path
+
+from stommel.files.whole import sync_names
 
 
 class FolderDisk:
@@ -47,13 +48,13 @@ class FolderDisk:
         self._forget(old)
         self._forget(new)
         (self.folder / old).replace(self.folder / new)
-        self._sync_names()
+        sync_names(self.folder)
 
     def remove(self, name: str) -> None:
         """Remove a file."""
         self._forget(name)
         (self.folder / name).unlink()
-        self._sync_names()
+        sync_names(self.folder)
 
     def close(self) -> None:
         """Hold no file open any more."""
@@ -68,7 +69,7 @@ class FolderDisk:
             is_new = not (self.folder / name).exists()
             self._open[name] = os.open(self.folder / name, flags, 0o644)
             if is_new:
-                self._sync_names()
+                sync_names(self.folder)
         return self._open[name]
 
     def _forget(self, name: str) -> None:
@@ -76,13 +77,3 @@ class FolderDisk:
         if descriptor is not None:
             with suppress(OSError):
                 os.close(descriptor)
-
-    def _sync_names(self) -> None:
-        """Bring the folder's names to the disk; Windows keeps them by itself, and opens no folder."""
-        if sys.platform == "win32":
-            return
-        descriptor = os.open(self.folder, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)

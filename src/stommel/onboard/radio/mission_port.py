@@ -1,6 +1,5 @@
 """Missions that come over the radio, and the store that keeps them."""
 
-import hashlib
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from math import degrees, isclose, radians
@@ -167,9 +166,7 @@ class MissionPort:
         try:
             self._allow()
             text = orders_text(with_waypoints(active.orders, plan), active.header, "mission").encode()
-            self._store.announce(len(text), hashlib.sha256(text).hexdigest())
-            self._store.take(0, text)
-            self._store.switch()
+            self._store.take_whole(text)
         except FileError as error:
             return [WaypointRefusal(str(problem)) for problem in error.problems]
         except StommelError as error:

@@ -9,6 +9,7 @@ import numpy as np
 from stommel.control.dive_cycle import SURFACE
 from stommel.geometry.earth import to_waypoint
 from stommel.link.outbox import Priority
+from stommel.link.values import boot_ms
 from stommel.messages.mavlink import Fields, entry_words
 from stommel.onboard.coordination.executive import State
 from stommel.onboard.coordination.failsafes import Reaction
@@ -47,11 +48,6 @@ def clipped(value: float, bits: int, *, signed: bool, unknown: int = 0) -> int:
         return unknown
     low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if signed else (0, (1 << bits) - 1)
     return int(min(max(value, low), high)) if math.isinf(value) else min(max(round(value), low), high)
-
-
-def boot_ms(t: float) -> int:
-    """Time of the vehicle [s] as messages say it [ms]; it begins anew after 49 days."""
-    return int(max(t, 0.0) * 1e3) & 0xFFFFFFFF
 
 
 def degrees_e7(angle: float) -> int:

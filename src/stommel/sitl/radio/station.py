@@ -1,7 +1,5 @@
 """The vehicle's radio in the loop: its end of the link, as it starts with the coordinator."""
 
-import hashlib
-
 import numpy as np
 
 from stommel.control.orders_file import orders_text
@@ -71,10 +69,7 @@ class Station:
         if self._store is None:
             self._store = self._opened()
             if self._store.active is None:
-                text = orders_text(self._setup.orders, orders_header(self._mission)).encode()
-                self._store.announce(len(text), hashlib.sha256(text).hexdigest())
-                self._store.take(0, text)
-                self._store.switch()
+                self._store.take_whole(orders_text(self._setup.orders, orders_header(self._mission)).encode())
         return self._store
 
     def _opened(self) -> MissionStore:

@@ -171,6 +171,18 @@ class MissionStore:
         self._reception.discard()
         return mission
 
+    def take_whole(self, text: bytes) -> StoredMission:
+        """Take a mission that is there as a whole, in place of the one that is held.
+
+        Raises
+        ------
+        ReceptionError, FileError, MissionStoreError
+            As `announce` and `switch`; nothing has changed.
+        """
+        self.announce(len(text), hashlib.sha256(text).hexdigest())
+        self.take(0, text)
+        return self.switch()
+
     def roll_back(self) -> StoredMission:
         """Take the previous mission again; the one that is held becomes the previous one.
 

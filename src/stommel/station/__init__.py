@@ -1,0 +1,1 @@
+"""The shore station: server, archive and page, with which people watch, command and plan."""

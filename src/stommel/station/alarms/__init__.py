@@ -1,0 +1,1 @@
+"""Limits of channels, what became of them, and words to people who are away."""

@@ -1,0 +1,1 @@
+"""Latest values and events, for whoever watches now; a slow watcher never slows the link."""

@@ -1,0 +1,1 @@
+"""From a plan on the map to orders that a vehicle understands."""

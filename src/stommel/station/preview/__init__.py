@@ -1,0 +1,1 @@
+"""The one port to the simulation: what a plan would become."""

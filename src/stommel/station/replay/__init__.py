@@ -1,0 +1,1 @@
+"""Past missions as if they were flown now."""

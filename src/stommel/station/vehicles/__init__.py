@@ -1,0 +1,1 @@
+"""One line to each vehicle, and what can be asked of it."""

@@ -1,0 +1,1 @@
+"""The door: HTTP, WebSocket and the built page."""

@@ -12,10 +12,12 @@ from sqlalchemy import URL, Connection, Engine, select
 from stommel.station.archive import migrating
 from stommel.station.archive.address import address_of, file_of, shown
 from stommel.station.archive.connecting import WRITING, engine_of
+from stommel.station.archive.curves import ChannelReader
 from stommel.station.archive.errors import ArchiveBusyError, ArchiveFullError, telling
 from stommel.station.archive.latest import latest_values
 from stommel.station.archive.rows import Batch
 from stommel.station.archive.schema import channels, vehicles
+from stommel.station.archive.series import Series, read_series, window_of
 from stommel.station.archive.storing import write_batch
 from stommel.station.archive.upserting import insert_new, upsert
 
@@ -130,6 +132,41 @@ class Archive:
         """Time and value of the newest sample of each channel, by its key."""
         with self.reading() as connection:
             return latest_values(connection, vehicle)
+
+    def series(
+        self,
+        vehicle: int,
+        key: str,
+        begin: float,
+        end: float,
+        points: int = 2000,
+        method: str = "minmax",
+        period: float | None = None,
+    ) -> Series:
+        """The samples of a channel from `begin` to `end`, reduced to about `points`, gaps as NaN.
+
+        Parameters
+        ----------
+        vehicle, key
+            A channel that is not there has no samples.
+        begin, end
+            Both among the range [s since 1970].
+        points
+            How many at most, beside those that mark gaps.
+        method
+            'minmax' keeps the lowest and highest of each bucket, 'lttb' the shape, 'raw' everything.
+        period
+            Usual time between samples [s]; taken from the samples if left out.
+
+        Raises
+        ------
+        ArchiveRequestError
+            A value is none that is allowed, or there is too much for 'raw'.
+        """
+        window = window_of(begin, end, points, method, period)
+        with self.reading() as connection:
+            number = connection.execute(select(channels.c.id).where(channels.c.key == key)).scalar()
+            return read_series(ChannelReader(connection, vehicle, -1 if number is None else number, key), window)
 
     def _numbers_of(self, connection: Connection, keys: set[str], added: dict[str, int]) -> Mapping[str, int]:
         """Numbers of channels; new ones go to `added`, as they are only there once they are committed."""

@@ -1,5 +1,6 @@
 """What follows from pressure, temperature and conductivity by TEOS-10 (IOC, SCOR and IAPSO 2010), through `gsw`."""
 
+import gsw
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -31,8 +32,6 @@ def with_derived(samples: xr.Dataset) -> xr.Dataset:
         `pressure` [dbar], `temperature` [degC], `conductivity` [S/m], `latitude` and `longitude` [deg], along one
         dimension. Absolute Salinity wants the place; where the position is unknown, what depends on it is unknown.
     """
-    import gsw
-
     C, t, p, longitude, latitude = (
         within(name, samples[name].values.astype(np.float64))
         for name in ("conductivity", "temperature", "pressure", "longitude", "latitude")

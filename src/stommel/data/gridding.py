@@ -1,5 +1,7 @@
 """Samples on a regular grid: means in cells of depth, by profile or by time; an empty cell stays empty."""
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -82,7 +84,7 @@ def _of_profiles(samples: xr.Dataset, number: NDArray[np.int32], profiles: NDArr
         else [np.flatnonzero(number == n)[0] for n in profiles]
     )
     stamps = {"long_name": "mean time", "standard_name": "time", "units": "seconds since 1970-01-01T00:00:00Z"}
-    found = {
+    found: dict[str, tuple[str, NDArray[Any], dict[str, Any]]] = {
         "time": ("profile", mean(seconds(samples["time"].values)), stamps),
         "profile_number": ("profile", profiles, {"long_name": "number of the profile"}),
         "profile_direction": ("profile", samples["profile_direction"].values[first], {"long_name": "1 down, -1 up"}),

@@ -1,11 +1,12 @@
 """Profiles: the way down and the way up of a dive, found in the pressure and numbered.
 
-A profile goes from one turning point of the pressure to the next. A turning point is confirmed once the pressure has come
-back from it by more than `least_change`, so that noise below that makes none. Of what lies between, the waits are taken
-off: a profile begins when the vehicle leaves the band of `edge` about the one turning point, and ends when it comes to the
-band about the other.
+A profile goes from one turning point of the pressure to the next. A turning point is confirmed once the pressure has
+come back from it by `least_change`, so that noise below that makes none. Of what lies between, the waits are taken off: a
+profile begins when the vehicle leaves the band of `edge` about the one turning point, and ends when it comes to the band
+about the other.
 """
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -116,7 +117,7 @@ def _between_turns(p: NDArray[np.float64], least_change: float, edge: float) -> 
     """First and last sample of each way from one turning point to the next."""
     found = []
     turns = turning_points(p, least_change)
-    for begin, end in zip(turns[:-1], turns[1:], strict=True):
+    for begin, end in pairwise(turns):
         way = p[begin : end + 1]
         leaves = np.flatnonzero(np.abs(way - way[0]) <= edge)[-1]
         comes = leaves + np.flatnonzero(np.abs(way[leaves:] - way[-1]) <= edge)[0]
@@ -128,7 +129,7 @@ def _between_turns(p: NDArray[np.float64], least_change: float, edge: float) -> 
 def turning_points(p: NDArray[np.float64], least_change: float) -> list[int]:
     """Indices of the turning points of a series, its ends among them.
 
-    From one to the next the series changes by at least `least_change`, and nowhere between does it come back by so much.
+    From one to the next the series changes by at least `least_change`; nowhere between does it come back by so much.
     """
     steps = np.sign(np.diff(p))
     moves = np.flatnonzero(steps)

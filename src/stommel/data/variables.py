@@ -1,4 +1,4 @@
-"""Names of samples: each variable once, with its CF standard name, unit and the range outside of which it is an error."""
+"""Names of samples: each variable once, with its CF standard name, its unit and the range that it can have."""
 
 from typing import Any, NamedTuple
 

@@ -35,9 +35,7 @@ class Sessions:
                 .order_by(sessions.c.made_us.desc())
                 .limit(MOST - 1)
             )
-            connection.execute(
-                sessions.delete().where(sessions.c.user == name, sessions.c.id_hash.not_in(newest))
-            )
+            connection.execute(sessions.delete().where(sessions.c.user == name, sessions.c.id_hash.not_in(newest)))
             connection.execute(
                 sessions.insert().values(
                     id_hash=fingerprint(secret), user=name, address=address,

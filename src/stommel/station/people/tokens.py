@@ -106,9 +106,7 @@ class Tokens:
             return None
         if row.last_used_us is None or now - seconds(row.last_used_us) > _USED_EVERY_S:
             with self._archive.writing() as connection:
-                connection.execute(
-                    tokens.update().where(tokens.c.id == row.id).values(last_used_us=microseconds(now))
-                )
+                connection.execute(tokens.update().where(tokens.c.id == row.id).values(last_used_us=microseconds(now)))
         return User(row.user, min(Role(row.role), Role(row.own), key=lambda role: role.rank), "token")
 
 

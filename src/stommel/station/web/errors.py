@@ -53,7 +53,12 @@ def detail_of(
 
 
 def refusal(
-    status: int, reason: str, *, key: str | None = None, value: Any = None, allowed: str | None = None,
+    status: int,
+    reason: str,
+    *,
+    key: str | None = None,
+    value: Any = None,
+    allowed: str | None = None,
     headers: dict[str, str] | None = None,
 ) -> HTTPException:
     """Error to raise from a route.

@@ -1,9 +1,9 @@
 """Profiles: the way down and the way up of a dive, found in the pressure and numbered.
 
 A profile goes from one turning point of the pressure to the next. A turning point is confirmed once the pressure has
-come back from it by `least_change`, so that noise below that makes none. Of what lies between, the waits are taken off: a
-profile begins when the vehicle leaves the band of `edge` about the one turning point, and ends when it comes to the band
-about the other.
+come back from it by `least_change`, so that noise below that makes none. Of what lies between, the waits are taken
+off: a profile begins when the vehicle leaves the band of `edge` about the one turning point, and ends when it comes
+to the band about the other.
 """
 
 from itertools import pairwise

@@ -19,6 +19,8 @@ MOST_SAMPLES = 2_000_000
 """In one data set."""
 FARTHEST = 7200.0
 """Time from a sample to a position, over which none is made up [s]."""
+LATEST = 4_102_444_800.0
+"""The year 2100 [s since 1970]."""
 _US = 1e-6
 Array = NDArray[np.float64]
 
@@ -28,14 +30,18 @@ class TooManySamplesError(StommelError):
 
 
 def export_dataset(archive: Archive, vehicle: int, begin: float, end: float) -> xr.Dataset:
-    """Samples of the CTD between two times [s since 1970], as a CF trajectory.
+    """Samples of the CTD between two times [s since 1970], as a CF trajectory; profiles are numbered from its begin.
 
     Raises
     ------
     TooManySamplesError
         There are more than `MOST_SAMPLES`; take a shorter time.
     """
-    samples = sampled(archive, vehicle, begin, end)
+    return trajectory(archive, vehicle, sampled(archive, vehicle, begin, end))
+
+
+def trajectory(archive: Archive, vehicle: int, samples: xr.Dataset) -> xr.Dataset:
+    """Samples of a vehicle as a CF trajectory with its name."""
     with archive.reading() as connection:
         row = connection.execute(
             select(schema.vehicles.c.name, schema.vehicles.c.model).where(schema.vehicles.c.id == vehicle)

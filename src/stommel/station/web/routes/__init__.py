@@ -2,6 +2,10 @@
 
 from fastapi import APIRouter
 
-from stommel.station.web.routes import station, vehicles
+from stommel.station.web.routes import data, station, vehicles
 
-ROUTERS: tuple[APIRouter, ...] = (station.router, vehicles.router)
+ROUTERS: tuple[APIRouter, ...] = (
+    station.router,
+    vehicles.router,
+    data.router,
+)

@@ -2,6 +2,9 @@
 
 from fastapi import APIRouter
 
-from stommel.station.web.routes import station
+from stommel.station.web.routes import people, station
 
-ROUTERS: tuple[APIRouter, ...] = (station.router,)
+ROUTERS: tuple[APIRouter, ...] = (
+    station.router,
+    people.router,
+)

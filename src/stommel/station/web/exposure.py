@@ -4,6 +4,9 @@ from dataclasses import dataclass
 from ipaddress import ip_address
 from pathlib import Path
 
+LOOPBACK_NAMES = ("127.0.0.1", "localhost", "::1")
+"""By which a browser at the station's own machine asks for it."""
+
 
 @dataclass(frozen=True)
 class Exposure:

@@ -2,6 +2,6 @@
 
 from fastapi import APIRouter
 
-from stommel.station.web.routes import station
+from stommel.station.web.routes import station, vehicles
 
-ROUTERS: tuple[APIRouter, ...] = (station.router,)
+ROUTERS: tuple[APIRouter, ...] = (station.router, vehicles.router)

@@ -11,6 +11,7 @@ from stommel.station.archive import Archive, Batch
 from stommel.station.live.hub import Hub
 from stommel.station.settings import StationSettings, VehicleSettings
 from stommel.station.vehicles.attached import VehicleNews
+from stommel.station.vehicles.commands import Commands
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.opening import VehicleError
 
@@ -49,6 +50,7 @@ class Station:
             self._lock_folder()
             self.archive = Archive.open(settings.database_url)
             self._held.callback(self.archive.close)
+            self.commands = Commands(self.archive, self.hub, self.vehicles)
             for vehicle in settings.vehicles:
                 self._attach(vehicle)
         except BaseException:
@@ -100,6 +102,7 @@ class Station:
         line = VehicleLine(settings, self.settings.folder, self.archive, self._committed)
         self.hub.open(number, line.clock.now, self.archive.latest(number))
         line.followers.append(news)
+        self.commands.follow(line)
         self.vehicles[number], self.news[number] = line, news
         return line
 

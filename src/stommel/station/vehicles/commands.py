@@ -16,7 +16,7 @@ from stommel.station.live.hub import Hub
 from stommel.station.vehicles.command_follower import CommandFollower
 from stommel.station.vehicles.command_rows import GIVEN, NOT_SENT, CommandRow, CommandRows
 from stommel.station.vehicles.line import VehicleLine
-from stommel.station.vehicles.opening import VehicleError
+from stommel.station.vehicles.opening import MissingError, VehicleError
 
 ANSWER_WITHIN = 5.0
 """Time for the line's thread to take a command [s]."""
@@ -94,12 +94,10 @@ class Commands:
 
         Raises
         ------
-        CommandError
+        MissingError
             There is no such command.
         """
-        row = self._rows.find(vehicle, id)
-        if row is None:
-            raise CommandError(f"command {id}: there is none")
+        row = self.find(vehicle, id)
         if not row.is_last:
             number = int(id, 16)
             self._answer(self._lines[vehicle].ask(lambda end, t: end.commands.cancel(number, t)))
@@ -114,16 +112,21 @@ class Commands:
         follower = self._followers.get(row.vehicle)
         return None if follower is None else follower.percents.get(row.id)
 
-    def history(self, vehicle: int, id: str) -> Sequence[tuple[float, str, str]]:
-        """Time, state and words of each state of a command.
+    def find(self, vehicle: int, id: str) -> CommandRow:
+        """A command of a vehicle.
 
         Raises
         ------
-        CommandError
+        MissingError
             There is no such command.
         """
-        if self._rows.find(vehicle, id) is None:
-            raise CommandError(f"command {id}: there is none")
+        row = self._rows.find(vehicle, id)
+        if row is None:
+            raise MissingError(f"vehicle {vehicle} has no command {id}")
+        return row
+
+    def history(self, id: str) -> Sequence[tuple[float, str, str]]:
+        """Time, state and words of each state of a command."""
         return self._rows.history(id)
 
     def told(self, row: CommandRow) -> dict[str, Any]:

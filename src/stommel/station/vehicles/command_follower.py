@@ -4,7 +4,6 @@ import time
 from collections import deque
 from collections.abc import Callable
 
-from stommel.link.commands.client import CommandClient
 from stommel.link.commands.report import Report
 from stommel.link.commands.states import UNKNOWN_PERCENT, State
 from stommel.link.commands.table import command_named
@@ -134,4 +133,3 @@ def _foreign(line: VehicleLine, report: Report, now: float) -> CommandRow:
         line.clock.of_link(report.expires), report.name, dict(zip(names, report.parameters, strict=False)),
         "until_expiry", state_of(report), report.words, now,
     )  # fmt: skip
-

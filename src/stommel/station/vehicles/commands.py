@@ -105,7 +105,8 @@ class Commands:
 
     def list(self, vehicle: int, limit: int = 100, before: float | None = None) -> Sequence[CommandRow]:
         """The last commands, the newest first."""
-        return self._rows.page(vehicle, limit, before)
+        page = self._rows.page(vehicle, limit, before)
+        return page if before is not None else [*self._unwritten(vehicle), *page][:limit]
 
     def percent(self, row: CommandRow) -> int | None:
         """How far the execution of a command is; None where nobody knows."""
@@ -120,7 +121,7 @@ class Commands:
         MissingError
             There is no such command.
         """
-        row = self._rows.find(vehicle, id)
+        row = self._rows.find(vehicle, id) or next((each for each in self._unwritten(vehicle) if each.id == id), None)
         if row is None:
             raise MissingError(f"vehicle {vehicle} has no command {id}")
         return row
@@ -132,6 +133,11 @@ class Commands:
     def told(self, row: CommandRow) -> dict[str, Any]:
         """A command as the API tells it."""
         return row._asdict() | {"is_last": row.is_last, "percent": self.percent(row)}
+
+    def _unwritten(self, vehicle: int) -> Sequence[CommandRow]:
+        """Aborts that the archive does not have yet, the newest first."""
+        follower = self._followers.get(vehicle)
+        return [] if follower is None else list(follower.unwritten)[::-1]
 
     def _row(
         self, line: VehicleLine, user: str, name: str, parameters: Mapping[str, float], valid_for: float, when: When

@@ -87,24 +87,31 @@ samples = Table(
 )
 """No foreign keys: `store` alone writes here, and each would be looked up thousands of times a second."""
 
-minutes = Table(
-    "minutes",
-    metadata,
-    Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
-    Column("channel_id", Integer, primary_key=True, autoincrement=False),
-    Column("minute", BigInteger, primary_key=True, autoincrement=False),  # t_us // 60 000 000
-    Column("count", BigInteger, nullable=False),
-    Column("total", Double, nullable=False),
-    Column("first_t_us", BigInteger, nullable=False),
-    Column("first", Double, nullable=False),
-    Column("last_t_us", BigInteger, nullable=False),
-    Column("last", Double, nullable=False),
-    Column("low_t_us", BigInteger, nullable=False),
-    Column("low", Double, nullable=False),
-    Column("high_t_us", BigInteger, nullable=False),
-    Column("high", Double, nullable=False),
-    sqlite_with_rowid=False,
-)
+
+def _cells(name: str, number: str) -> Table:
+    """What the samples of a channel come to in each stretch of time; `number` counts these since 1970."""
+    return Table(
+        name,
+        metadata,
+        Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
+        Column("channel_id", Integer, primary_key=True, autoincrement=False),
+        Column(number, BigInteger, primary_key=True, autoincrement=False),
+        Column("count", BigInteger, nullable=False),
+        Column("total", Double, nullable=False),
+        Column("first_t_us", BigInteger, nullable=False),
+        Column("first", Double, nullable=False),
+        Column("last_t_us", BigInteger, nullable=False),
+        Column("last", Double, nullable=False),
+        Column("low_t_us", BigInteger, nullable=False),
+        Column("low", Double, nullable=False),
+        Column("high_t_us", BigInteger, nullable=False),
+        Column("high", Double, nullable=False),
+        sqlite_with_rowid=False,
+    )
+
+
+minutes = _cells("minutes", "minute")
+hours = _cells("hours", "hour")
 
 texts = Table(
     "texts",

@@ -25,7 +25,7 @@ def test_taken_silently_where_nobody_has_it(people: People, told: list[Any], clo
 
 def test_two_pilots_at_once(people: People, told: list[Any]) -> None:
     people.holders.need(1, PAUL)
-    with pytest.raises(HeldError, match="paul holds command of vehicle 1 since .* take it with a reason") as caught:
+    with pytest.raises(HeldError, match=r"paul holds command of vehicle 1 since .* take it with a reason") as caught:
         people.holders.need(1, PIA)
     assert caught.value.holder == "paul"
     with pytest.raises(HeldError):

@@ -37,7 +37,7 @@ def test_a_route_without_a_role_does_not_start(station: StandInStation, monkeypa
     router = APIRouter(prefix="/api")
     router.add_api_route("/forgotten", lambda: None, methods=["POST"])
     monkeypatch.setattr(web_app, "ROUTERS", (*web_app.ROUTERS, router))
-    with pytest.raises(ValueError, match="forgotten.* names no role"):
+    with pytest.raises(ValueError, match=r"forgotten.* names no role"):
         create_app(station)
 
 

@@ -137,7 +137,7 @@ class Station:
 
     def _holder_changed(self, vehicle: int, hold: Hold | None) -> None:
         self._holders[vehicle] = hold
-        told = {"holder": None} if hold is None else {"holder": hold.user} | hold._asdict()
+        told = {"vehicle": vehicle, "user": None} if hold is None else hold._asdict()
         self.hub.publish(Happening("holder", vehicle, told))
 
     def _title(self, vehicle: int) -> str:

@@ -4,7 +4,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 
-.PHONY: help setup run test check format bench docs dist clean
+PAGE := src/stommel/station/built/index.html
+PAGE_SOURCES := $(shell find page -name node_modules -prune -o -type f -print)
+
+.PHONY: help setup page run test check format bench docs dist clean
 
 help:
 	@echo "make run     design the paper's glider; the report is build/zju-design.html"
@@ -13,6 +16,7 @@ help:
 	@echo "make bench   every figure by name, also in build/bench.json"
 	@echo "make docs    the documentation site, build/docs/index.html"
 	@echo "make dist    a release: sdist and wheel in dist/, tried in an environment of its own"
+	@echo "make page    the page of the shore station, from page/ into the package"
 	@echo "make setup   the environment in .venv that the others make themselves"
 	@echo "make clean   remove the environment and everything built"
 
@@ -33,7 +37,22 @@ $(VENV)/test.stamp: $(VENV)/run.stamp
 
 setup: $(VENV)/test.stamp
 
-run: $(VENV)/run.stamp
+$(VENV)/page.stamp: page/npm.py $(VENV)/run.stamp
+	@$(BIN)/python page/npm.py --version >/dev/null 2>&1 || \
+	  $(PIP) install --quiet --constraint constraints.txt --editable '.[page]'
+	@touch $@
+
+page/node_modules/.package-lock.json: page/package-lock.json | $(VENV)/page.stamp
+	$(BIN)/python page/npm.py ci --no-audit --no-fund --loglevel=error
+	@touch $@
+
+$(PAGE): page/node_modules/.package-lock.json $(PAGE_SOURCES)
+	$(BIN)/python page/npm.py run --silent build -- --logLevel warn
+	@touch $@
+
+page: $(PAGE)
+
+run: $(VENV)/run.stamp $(PAGE)
 	$(BIN)/stommel design zju --output build/zju-design.html
 
 check: $(VENV)/test.stamp
@@ -46,17 +65,20 @@ format: $(VENV)/test.stamp
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-test: check
+test: check $(PAGE)
+	$(BIN)/python page/npm.py run --silent lint
+	$(BIN)/python page/npm.py run --silent check
+	$(BIN)/python page/npm.py run --silent test
 	$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
-bench: $(VENV)/test.stamp
+bench: $(VENV)/test.stamp $(PAGE)
 	$(BIN)/python benchmarks/run.py
 
 docs: $(VENV)/test.stamp
 	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet -b html docs build/docs
 	@echo "docs: build/docs/index.html"
 
-dist: $(VENV)/test.stamp
+dist: $(VENV)/test.stamp $(PAGE)
 	rm -rf dist build/release
 	$(BIN)/python -m build --no-isolation
 	$(BIN)/python -m venv build/release
@@ -65,5 +87,5 @@ dist: $(VENV)/test.stamp
 	@echo "dist: the wheel flew the pool trial; $$(ls dist)"
 
 clean:
-	rm -rf $(VENV) build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) build dist page/node_modules src/stommel/station/built .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,30 @@
+// Whether the first five minutes are shown, and where they are. A browser that has seen them is left alone.
+
+const KEY = 'stommel.tour';
+
+function seen(): boolean {
+  try {
+    return localStorage.getItem(KEY) === 'done';
+  } catch {
+    return true;
+  }
+}
+
+class TourState {
+  step = $state<number | undefined>(seen() ? undefined : 0);
+}
+
+export const tour = new TourState();
+
+export function startTour(): void {
+  tour.step = 0;
+}
+
+export function endTour(): void {
+  tour.step = undefined;
+  try {
+    localStorage.setItem(KEY, 'done');
+  } catch {
+    // Storage is switched off: it is shown again next time.
+  }
+}

@@ -107,11 +107,7 @@ class Tokens:
         if row is None or (row.expires_us is not None and seconds(row.expires_us) <= now):
             return None
         if row.last_used_us is None or now - seconds(row.last_used_us) > _USED_EVERY_S:
-<<<<<<< HEAD
-            with self._archive.writing() as connection:
-=======
             with suppress(ArchiveError), self._archive.writing() as connection:  # busy: at the next look
->>>>>>> h-C
                 connection.execute(tokens.update().where(tokens.c.id == row.id).values(last_used_us=microseconds(now)))
         return User(row.user, min(Role(row.role), Role(row.own), key=lambda role: role.rank), "token")
 

@@ -76,9 +76,9 @@ class _Reader:
     def __init__(self, socket: WebSocket) -> None:
         self._socket = socket
         self._station = socket.app.state.station
-        self._hub: "Hub" = self._station.hub
+        self._hub: Hub = self._station.hub
         self._sending = asyncio.Lock()
-        self._open: dict[str, tuple["Subscription", asyncio.Task[None]]] = {}
+        self._open: dict[str, tuple[Subscription, asyncio.Task[None]]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def serve(self) -> None:

@@ -1,14 +1,17 @@
 """Every documented example runs, without a warning."""
 
 import re
+import signal
+import subprocess
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
 import pytest
 
-from tests.support.command import Command
+from tests.support.command import PROGRAM, Command, run_process
 from tests.support.pages import ROOT, blocks, commands
+from tests.support.ports import free_port
 from tests.support.python import run_python
 
 SCRIPTS = sorted((ROOT / "examples").glob("*.py"))
@@ -70,9 +73,33 @@ def test_python_of_the_readme(tmp_path: Path) -> None:
     run_python("-c", block + "\nassert plant.nstates == 4", folder=tmp_path)
 
 
+def _serves(arguments: list[str]) -> bool:
+    """Whether a command goes on until somebody ends it."""
+    return "-listen:" in " ".join(arguments) or arguments[0] == "station"
+
+
 def test_commands_of_the_readme(stommel: Command) -> None:
-    calls = commands(README)
+    """Each command that ends by itself; the others are tried in the tests of what they serve."""
+    calls = [arguments for arguments in commands(README) if not _serves(arguments) and arguments[0] != "link"]
     assert len(calls) >= 9
     for arguments in calls:
         done = stommel(*arguments)
         assert done.status == 0, (arguments, done.err)
+
+
+def test_glider_on_the_air_of_the_readme(tmp_path: Path) -> None:
+    """The two terminals of the README: one glider, and one look at it."""
+    (serving,) = (call for call in commands(README, "sitl") if _serves(call))
+    (asking,) = commands(README, "link")
+    port = f":{free_port()}"
+    glider, look = ([word.replace(":5760", port) for word in call] for call in (serving, asking))
+    with subprocess.Popen([PROGRAM, *glider], cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stderr is not None
+            assert port in process.stderr.readline()  # it listens
+            seen = run_process(tmp_path, *look, "--state", tmp_path / "state")
+            assert seen.status == 0, seen.err
+            assert seen.out.startswith("Vehicle 1\n")
+        finally:
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=60)

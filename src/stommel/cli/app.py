@@ -26,6 +26,7 @@ from stommel.cli import (
     root_locus,
     simulate,
     sitl,
+    station,
     steady,
     study,
     table,
@@ -89,3 +90,4 @@ app.add_typer(ocean.ocean_app, name="ocean")
 app.add_typer(can.can_app, name="can")
 app.add_typer(link.link_app, name="link")
 app.add_typer(sitl.sitl_app, name="sitl")
+app.add_typer(station.station_app, name="station")

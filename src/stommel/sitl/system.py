@@ -195,12 +195,13 @@ class System:
         """Let vehicle and shore speak to each other by radio for a step."""
         inject = self.inject
         runs, clock = inject.runs(COORDINATOR), inject.clock(t)
+        fed = self.switched.radio or self.air.tethered
         if runs:
             self.link.observe(clock)
-            if not self.switched.radio:
+            if not fed:
                 self.link.rest(clock)
         self.air.worsen(inject.radio_loss())
-        on = self.switched.radio and inject.radio_works()
+        on = fed and inject.radio_works()
         self.air.pass_time(self.link if runs else None, t, self.plant.step, clock - t, on=on)
 
     def _started_coordinator(self, t: float, logbook: Logbook | None) -> Coordinator:

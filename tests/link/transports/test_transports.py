@@ -18,6 +18,7 @@ from stommel.link.transports import Transport, TransportError, TransportState, o
 from stommel.link.transports.address import read_address
 from stommel.link.transports.outgoing import OutgoingBytes
 from stommel.link.transports.tcp import TcpClient
+from tests.support.ports import free_port
 
 from ..helpers import Listener, Speaker
 
@@ -44,12 +45,6 @@ def listening() -> tuple[socket.socket, int]:
     made.bind(("127.0.0.1", 0))
     made.listen()
     return made, made.getsockname()[1]
-
-
-def free_port() -> int:
-    made, port = listening()
-    made.close()
-    return port
 
 
 def talk_over(near: Transport, far: Transport) -> None:

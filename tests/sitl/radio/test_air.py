@@ -1,11 +1,17 @@
 """What the radio costs the loop, counted in looks, and that sparing them changes nothing that is heard."""
 
+from math import inf, nan
+
 import pytest
 
 from stommel.link.channel.settings import ChannelSettings
 from stommel.simulation.scenario.mission import Mission
+from stommel.sitl.faults.fault import Fault
+from stommel.sitl.faults.injector import Injector
 from stommel.sitl.radio.air import LOOKS
 from stommel.sitl.system import System
+
+DEAD = Fault("radio_dead", "", 0.0, inf, nan)
 
 
 class Counted:
@@ -91,3 +97,26 @@ def test_under_water_nobody_is_asked(trial: Mission) -> None:
     for _ in range(20):
         system.step()
     assert ashore.asked == before + 20
+
+
+def test_on_a_cable_the_vehicle_is_heard_under_water(trial: Mission) -> None:
+    """Oracle: the depth of the plant; without the cable the same second is silent (the test above)."""
+    ashore = Counted()
+    system, _ = flown(trial, ashore, 1, radio=ChannelSettings(tethered=True))
+    while system.plant.depth < 2.0:
+        assert system.plant.time < 900.0
+        system.step()
+    assert not system.switched.radio, "its own software has switched it off"
+    before, t = len(ashore.heard), system.plant.time
+    for _ in range(20):
+        system.step()
+    assert len(ashore.heard) > before + 20
+    assert {int(at) for at in ashore.times} >= set(range(int(t) + 1, int(t) + 20))
+
+
+def test_a_dead_radio_is_silent_on_a_cable_too(trial: Mission) -> None:
+    ashore = Counted()
+    system = System(trial, shore=ashore, radio=ChannelSettings(tethered=True), inject=Injector([DEAD], 0))
+    for _ in range(60):
+        system.step()
+    assert not ashore.heard

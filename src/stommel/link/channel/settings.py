@@ -56,6 +56,8 @@ class ChannelSettings:
     """From when until when nothing passes [s]: the vehicle is under water."""
     buffer: int = 8192
     """Bytes that the modem of each end holds; more are refused."""
+    tethered: bool = False
+    """Whether a cable holds the vehicle's antenna above the water, so that radios hear each other during dives too."""
 
     def __post_init__(self) -> None:
         for name in _SHARES:

@@ -18,8 +18,8 @@ from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle import Vehicle, load_vehicle
 
-_ONLY_IN_THE_LOOP = {"faults": "can break", "radio": "has a radio"}
-"""Tables of a scenario that a mission file must not have, and why."""
+_FAULTS, _RADIO = "faults", "radio"
+"""Tables of a scenario that only the software in the loop has: what breaks, and what its radio is like."""
 
 
 def load_mission(path: str | Path) -> Mission:
@@ -46,11 +46,11 @@ def mission_from(
 
     `vehicle` and `ocean`, already loaded, stand in for the file's own.
     """
-    for key, words in _ONLY_IN_THE_LOOP.items():
-        if key in document:
-            told = f"{key}: only the software in the loop {words}; fly this file with `stommel sitl`, or take it out"
-            raise FileError([Problem(origin, key, told)])
-    document = with_its_plan(document, origin, folder)
+    if _FAULTS in document:
+        told = f"{_FAULTS}: only the software in the loop can break; fly this file with `stommel sitl`, or take it out"
+        raise FileError([Problem(origin, _FAULTS, told)])
+    # without the software in the loop nobody calls: what the radio is like changes nothing
+    document = with_its_plan({key: value for key, value in document.items() if key != _RADIO}, origin, folder)
     scenario = validated(document, ScenarioFile, origin)
     if vehicle is None:
         vehicle = load_vehicle(beside(folder, scenario.vehicle))

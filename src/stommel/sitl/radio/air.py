@@ -39,7 +39,9 @@ class Air:
     """
 
     def __init__(self, plant: Plant, settings: ChannelSettings, shore: End | None = None) -> None:
-        self.antenna = Antenna(plant)
+        self.antenna = Antenna(plant, tethered=settings.tethered)
+        self.tethered = settings.tethered
+        """Whether a cable feeds the vehicle's radio, also while the vehicle has switched it off."""
         self.shore = shore
         self.on = False
         """Whether the vehicle's radio has power."""

@@ -17,7 +17,7 @@ from stommel.simulation.plant.waves import antenna_height
 from stommel.sitl.plant import Plant
 
 EVERYWHERE = math.inf
-"""Height of an antenna of which nobody said where it is."""
+"""Height of an antenna of which nobody said where it is, and of one on a cable."""
 
 
 @compiled
@@ -31,10 +31,18 @@ def calm_height(equipment: Equipment, column: Column, x: np.ndarray, age: float)
 
 
 class Antenna:
-    """The antenna of a vehicle in the loop, from one step of the plant to the next."""
+    """The antenna of a vehicle in the loop, from one step of the plant to the next.
 
-    def __init__(self, plant: Plant) -> None:
-        self._plant = plant
+    Parameters
+    ----------
+    plant
+        The vehicle in its waves.
+    tethered
+        Whether a cable holds the antenna above the water, wherever the vehicle is.
+    """
+
+    def __init__(self, plant: Plant, *, tethered: bool = False) -> None:
+        self._plant, self._tethered = plant, tethered
         self._height = -math.inf
         self._looks = True
 
@@ -45,7 +53,9 @@ class Antenna:
     def _look(self) -> None:
         self._looks = False
         s = self._plant.setup
-        if not s.world["afloat"]:
+        if self._tethered:
+            self._height = EVERYWHERE
+        elif not s.world["afloat"]:
             self._height = -math.inf
         elif math.isnan(s.equipment.plant.antenna[0]):
             self._height = EVERYWHERE

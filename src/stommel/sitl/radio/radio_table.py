@@ -31,6 +31,9 @@ class RadioTable(Table):
     """Mean duration of a fade."""
     bit_error_rate: Annotated[float, between(0, 0.5)] = 0.0
     """Share of bits that arrive flipped."""
+    tethered: Flag = False
+    """Whether a cable holds the antenna above the water and feeds the radio: the vehicle is heard under water too. For
+    trials and first looks."""
 
     def settings(self) -> ChannelSettings:
         """Return the channel that this says."""
@@ -45,6 +48,7 @@ class RadioTable(Table):
             fade_every=self.fade_every_s if self.fade_every_s is not None else math.inf,
             fade_length=self.fade_length_s if fades else 0.0,
             bit_error_rate=self.bit_error_rate,
+            tethered=self.tethered,
         )
 
 

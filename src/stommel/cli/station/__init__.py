@@ -1,0 +1,29 @@
+"""`stommel station`: the shore station, with which people watch and command vehicles from a page in the browser."""
+
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+from stommel.cli.station.serve import serve
+
+SERVE = "serve"
+"""The verb that `stommel station --database ...` stands for."""
+
+
+class _ServesByDefault(TyperGroup):
+    """Options without a verb are for `serve`."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        if args and args[0].startswith("-") and args[0] not in ctx.help_option_names:
+            args = [SERVE, *args]
+        return super().parse_args(ctx, args)
+
+
+station_app = typer.Typer(
+    cls=_ServesByDefault,
+    no_args_is_help=True,
+    rich_markup_mode="markdown",
+    help="The shore station: `stommel station --database ...` is short for `stommel station serve --database ...`.",
+)
+station_app.command(SERVE)(serve)

@@ -1,0 +1,1 @@
+"""What stands before the routes: hosts and origins, headers, sound bodies, the audit log."""

@@ -11,9 +11,10 @@ import time
 from pathlib import Path
 from typing import Any
 
-import stommel
-from fastapi import Body, FastAPI, HTTPException, WebSocket, WebSocketDisconnect
+from fastapi import FastAPI, HTTPException, WebSocket, WebSocketDisconnect
 from fastapi.staticfiles import StaticFiles
+
+import stommel
 from tests.page import fake_glider as glider
 
 BUILT = Path(stommel.__file__).parent / "station" / "built"
@@ -194,15 +195,20 @@ async def _tell(socket: WebSocket, wanted: dict[str, dict[str, Any]]) -> None:
         await asyncio.sleep(0.25)
         for key, subscription in list(wanted.items()):
             if subscription["vehicle"] == 1:
-                t = now()
-                found = glider.values(t)
-                rows = {name: [t, found[name]] for name in subscription["channels"] if name in found}
-                kind = {"type": "samples", "samples": {n: [[a], [b]] for n, (a, b) in rows.items()}} if subscription.get(
-                    "every") else {"type": "values", "values": rows}  # fmt: skip
-                await socket.send_json({**kind, "id": key, "vehicle": 1, "now": t})
+                await socket.send_json({"id": key, "vehicle": 1, **told(subscription)})
         if int(time.monotonic() * 4) % 4 == 0:
             for one in summaries():
                 await socket.send_json({"type": "summary", "vehicle": one["vehicle"], "summary": one})
+
+
+def told(subscription: dict[str, Any]) -> dict[str, Any]:
+    """Values or samples of one subscription."""
+    t = now()
+    found = glider.values(t)
+    names = [name for name in subscription["channels"] if name in found]
+    if subscription.get("every"):
+        return {"type": "samples", "now": t, "samples": {name: [[t], [found[name]]] for name in names}}
+    return {"type": "values", "now": t, "values": {name: [t, found[name]] for name in names}}
 
 
 @app.websocket("/api/live")
@@ -223,7 +229,7 @@ async def live(socket: WebSocket) -> None:
 
 
 @app.api_route("/api/{path:path}", methods=["GET", "POST", "PUT", "DELETE"])
-def unknown(path: str, body: Any = Body(None)) -> None:
+def unknown(path: str) -> None:
     """Say what the fake does not know."""
     raise HTTPException(404, {"reason": f"The fake station has no /{path}."})
 

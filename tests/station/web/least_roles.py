@@ -22,4 +22,12 @@ LEAST_ROLES: dict[tuple[str, str], str] = {
     ("GET", f"{V}/holder"): VIEWER,
     ("POST", f"{V}/holder"): PILOT,
     ("DELETE", f"{V}/holder"): PILOT,
+    # what was sampled
+    ("GET", f"{V}/dives"): VIEWER,
+    ("GET", f"{V}/profiles"): VIEWER,
+    ("GET", f"{V}/profiles/{{number}}"): VIEWER,
+    ("GET", f"{V}/section"): VIEWER,
+    ("GET", f"{V}/ts"): VIEWER,
+    ("GET", f"{V}/data.csv"): VIEWER,
+    ("GET", f"{V}/data.nc"): VIEWER,
 }

@@ -16,7 +16,9 @@ from typing import Any
 def programs() -> Path | None:
     """Folder of initdb and postgres; None where they are missing, or nobody may run them."""
     found = shutil.which("postgres")
-    folders = [Path(found).resolve().parent] if found else sorted(Path("/usr/lib/postgresql").glob("*/bin"), reverse=True)
+    folders = (
+        [Path(found).resolve().parent] if found else sorted(Path("/usr/lib/postgresql").glob("*/bin"), reverse=True)
+    )
     if os.geteuid() == 0 and not _other_user():
         return None
     return next((folder for folder in folders if (folder / "initdb").exists()), None)

@@ -163,6 +163,7 @@ commands = Table(
     Column("expires_us", BigInteger, nullable=False),
     Column("name", String, nullable=False),
     Column("parameters", JSON, nullable=False),
+    Column("occasion", String, nullable=False),  # when it may be executed: at_once, at_next_surfacing, until_expiry
     Column("state", String, nullable=False),
     Column("outcome", Text),
     Column("changed_us", BigInteger, nullable=False),
@@ -311,6 +312,18 @@ tokens = Table(
     Column("expires_us", BigInteger),
     Column("last_used_us", BigInteger),
 )
+
+holders = Table(
+    "holders",
+    metadata,
+    Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
+    Column("user", String, nullable=False),  # no key of users: "local" is none of them
+    Column("role", String, nullable=False),
+    Column("since_us", BigInteger, nullable=False),
+    Column("taken_from", String),
+    Column("reason", Text),
+)
+"""Who holds command of a vehicle; no row where nobody does."""
 
 audit = Table(
     "audit",

@@ -1,0 +1,118 @@
+/** Parameters of a vehicle, by component, as the page shows them. */
+
+export interface ParameterRow {
+  component: number;
+  name: string;
+  words: string;
+  unit: string;
+  kind: string;
+  low: number;
+  high: number;
+  default: number;
+  value: number | null;
+}
+
+export interface ComponentRow {
+  component: number;
+  name: string;
+  is_silent: boolean;
+  is_being_read: boolean;
+  parameters: ParameterRow[];
+}
+
+/** What the station says of a value that was to be written. */
+export interface Written {
+  state?: string;
+  ending?: string;
+  words?: string | null;
+  value?: number | null;
+}
+
+interface Told {
+  component: number;
+  name: string;
+  state?: string;
+  is_silent?: boolean;
+  is_being_read?: boolean;
+  parameters: (Omit<ParameterRow, 'component'> & { id?: string; component?: number })[];
+}
+
+/** The components of an answer of the station. */
+export function componentsOf(answer: unknown): ComponentRow[] {
+  const list = Array.isArray(answer) ? answer : ((answer as { components?: unknown } | null)?.components ?? []);
+  return (list as Told[]).map((each) => ({
+    component: each.component,
+    name: each.name,
+    is_silent: each.is_silent ?? /silent/i.test(each.state ?? ''),
+    is_being_read: each.is_being_read ?? /being.read/i.test(each.state ?? ''),
+    parameters: each.parameters.map((one) => ({ ...one, component: each.component, kind: String(one.kind) })),
+  }));
+}
+
+/** Whether a parameter has another value than its default; 32 bits hold both. */
+export function isChanged(row: ParameterRow): boolean {
+  return row.value !== null && Math.fround(row.value) !== Math.fround(row.default);
+}
+
+/** Whether only whole numbers are allowed. */
+export function isWhole(row: ParameterRow): boolean {
+  return /int/i.test(row.kind);
+}
+
+/** Whether it is a truth: 0 or 1. */
+export function isTruth(row: ParameterRow): boolean {
+  return isWhole(row) && row.low === 0 && row.high === 1;
+}
+
+/** What may be typed, in words. */
+export function rangeWords(row: ParameterRow): string {
+  const span = `${digits(row.low)} to ${digits(row.high)}${row.unit ? ` ${row.unit}` : ''}`;
+  return isTruth(row) ? 'yes or no' : isWhole(row) ? `whole, ${span}` : span;
+}
+
+/** What is wrong with a typed value, in words; empty if nothing is. */
+export function problemOf(row: ParameterRow, text: string): string {
+  const typed = text.trim().replace(',', '.');
+  if (typed === '') return `is missing; allowed is ${rangeWords(row)}`;
+  const value = Number(typed);
+  if (!Number.isFinite(value)) return `"${text.trim()}" is not a number; allowed is ${rangeWords(row)}`;
+  if (isWhole(row) && !Number.isInteger(value)) return `${typed} is not a whole number; allowed is ${rangeWords(row)}`;
+  if (value < row.low || value > row.high) return `${typed} is out of range; allowed is ${rangeWords(row)}`;
+  return '';
+}
+
+/** As many digits as 32 bits hold, without needless zeros. */
+export function digits(value: number): string {
+  if (Number.isInteger(value) && Math.abs(value) < 1e9) return String(value);
+  const short = Number(value.toPrecision(7));
+  return short !== 0 && (Math.abs(short) < 1e-4 || Math.abs(short) >= 1e9) ? short.toExponential() : String(short);
+}
+
+/** A value with its unit. */
+export function valueWords(row: ParameterRow, value: number | null): string {
+  if (value === null) return 'not known';
+  if (isTruth(row)) return value ? 'yes' : 'no';
+  return row.unit ? `${digits(value)} ${row.unit}` : digits(value);
+}
+
+/** Where a value lies in its range, 0 to 1; null without one. */
+export function share(row: ParameterRow, value: number | null): number | null {
+  if (value === null || !(row.high > row.low)) return null;
+  return Math.min(1, Math.max(0, (value - row.low) / (row.high - row.low)));
+}
+
+/** Parameters that have all the words of a search in name, words or unit. */
+export function found(rows: ParameterRow[], search: string, changedOnly: boolean): ParameterRow[] {
+  const wanted = search.toLowerCase().split(/\s+/).filter(Boolean);
+  return rows.filter((row) => {
+    if (changedOnly && !isChanged(row)) return false;
+    const text = `${row.name} ${row.words} ${row.unit}`.toLowerCase();
+    return wanted.every((word) => text.includes(word));
+  });
+}
+
+/** How much of a component is known, 0 to 1. */
+export function knownShare(component: ComponentRow): number {
+  const total = component.parameters.length;
+  return total > 0 ? component.parameters.filter((row) => row.value !== null).length / total : 0;
+}

@@ -5,6 +5,9 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
+from stommel.cli.station.backup import backup
+from stommel.cli.station.check import check, migrate
+from stommel.cli.station.export import export
 from stommel.cli.station.serve import serve
 
 SERVE = "serve"
@@ -27,3 +30,5 @@ station_app = typer.Typer(
     help="The shore station: `stommel station --database ...` is short for `stommel station serve --database ...`.",
 )
 station_app.command(SERVE)(serve)
+for _verb in (backup, export, check, migrate):
+    station_app.command()(_verb)

@@ -15,7 +15,6 @@ from stommel.files.units import counted
 if TYPE_CHECKING:
     from stommel.control.orders import Orders
     from stommel.control.orders_file import OrdersHeader
-    from stommel.simulation.scenario.mission import Mission
 
 
 def orders(
@@ -49,6 +48,7 @@ def orders(
     Example: stommel orders pool_trial --output pool-orders.toml
     """
     from stommel.control.orders_file import write_orders
+    from stommel.simulation.planned_orders import planned_orders
     from stommel.simulation.scenario.loading import load_mission
     from stommel.simulation.scenario.orders_header import orders_header
     from stommel.simulation.scenario.shipped import mission_path
@@ -61,16 +61,6 @@ def orders(
         write_orders(output, told, header)
         written.append(output)
     finish(vars(header) | _row(told), written, as_json, lambda answer: _show(answer, header))
-
-
-def planned_orders(mission: "Mission") -> "Orders":
-    """What the simulator flies the mission by."""
-    from stommel.planning.ballasting import water_of
-    from stommel.planning.orders import orders_of
-    from stommel.simulation.plant.building import plant_of
-
-    plant = plant_of(mission.vehicle, water_of(mission.deployment).mean_temperature_c)
-    return orders_of(mission.deployment, mission.scenario.integration.control_step_s, plant.battery.energy)
 
 
 def _row(told: "Orders") -> dict[str, Any]:

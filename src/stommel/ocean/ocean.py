@@ -15,6 +15,7 @@ from stommel.ocean import times
 from stommel.ocean.answers import DEEPEST, Region, Sample, Source, depth_refusal, refusal, sample_of
 from stommel.ocean.errors import LandError, OutsideOceanError, UnknownOceanError
 from stommel.ocean.kernel.column import fill_column
+from stommel.ocean.kernel.given_current import with_current
 from stommel.ocean.kernel.grid import (
     BOTTOM,
     CLIMATOLOGY,
@@ -39,6 +40,8 @@ BLEND_KM = 50.0
 """Beyond the edge of the data, over which the nearest values give way to a climatology."""
 BLEND_H = 24.0
 """The same before the first and after the last time."""
+FASTEST_CURRENT = 5.0
+"""That can be given [m/s]."""
 _SAMPLE_STEP = 10.0
 """Largest step of the column that answers a single question [m]."""
 
@@ -183,6 +186,22 @@ class Ocean:
             notes["climatology"] = f"{behind}, reached {blend_km:g} km and {blend_hours:g} h beyond the data"
             notes |= {f"climatology, {key}": text for key, text in (second.notes if second else {}).items()}
         return type(self)(self.name, data, notes)
+
+    def with_current(self, east_m_s: float, north_m_s: float) -> Self:
+        """Return the same water moving to east and north at these speeds, everywhere and always, without tides.
+
+        Raises
+        ------
+        UnknownOceanError
+            A speed is not between -5 and 5 m/s.
+        """
+        for key, value in (("east_m_s", east_m_s), ("north_m_s", north_m_s)):
+            if not -FASTEST_CURRENT <= value <= FASTEST_CURRENT:
+                raise UnknownOceanError(
+                    f"{key} = {value:g}: must be between {-FASTEST_CURRENT:g} and {FASTEST_CURRENT:g} m/s"
+                )
+        notes = dict(self.notes) | {"current": f"given: {east_m_s:g} m/s to the east, {north_m_s:g} m/s to the north"}
+        return type(self)(self.name, with_current(self.data, east_m_s, north_m_s), notes)
 
     def _second(self, climatology: "Ocean | Source", folder: Path | None) -> "Ocean":
         """Open the ocean behind this one."""

@@ -1,7 +1,7 @@
 """The limits that a vehicle's software holds missions against, from the vehicle's file."""
 
+from stommel.control.vehicle_limits import VehicleLimits
 from stommel.errors import FileError, Problem
-from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits
 from stommel.vehicle import Vehicle
 from stommel.vehicle.fingerprint import untrimmed_fingerprint
 

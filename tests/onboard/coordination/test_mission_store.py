@@ -7,10 +7,10 @@ from collections.abc import Callable
 import pytest
 
 from stommel.control.orders_file import orders_text
+from stommel.control.vehicle_limits import VehicleLimits, refusals
 from stommel.errors import FileError
 from stommel.onboard.coordination.stores.missions import MissionStore, MissionStoreError
 from stommel.onboard.coordination.stores.reception import ReceptionError
-from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits, refusals
 from tests.onboard.coordination.disk import Disk, PowerCutError
 from tests.support.orders import ORDERS
 

@@ -2,10 +2,10 @@
 
 import pytest
 
-from stommel.cli.orders import planned_orders
 from stommel.control.orders_file import OrdersHeader
-from stommel.onboard.coordination.stores.vehicle_limits import refusals
+from stommel.control.vehicle_limits import refusals
 from stommel.planning.vehicle_limits import vehicle_limits
+from stommel.simulation.planned_orders import planned_orders
 from stommel.simulation.scenario.loading import load_mission
 from stommel.simulation.scenario.shipped import mission_path, shipped_missions
 from stommel.vehicle import load_vehicle

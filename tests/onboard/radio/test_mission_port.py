@@ -6,6 +6,7 @@ import random
 import pytest
 
 from stommel.control.orders_file import orders_text, parse_orders
+from stommel.control.vehicle_limits import VehicleLimits
 from stommel.link.endings import Ending
 from stommel.link.missions.orders_client import OrdersClient
 from stommel.link.missions.orders_server import OrdersServer
@@ -13,7 +14,6 @@ from stommel.link.missions.port import Waypoint, WaypointPlan, WaypointProgress
 from stommel.link.missions.waypoint_client import WaypointClient
 from stommel.link.missions.waypoint_server import WaypointServer
 from stommel.onboard.coordination.stores.missions import MissionStore
-from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits
 from stommel.onboard.radio.mission_port import MissionPort, with_waypoints
 from tests.link.line import End, Line, losing
 from tests.onboard.coordination.disk import Disk

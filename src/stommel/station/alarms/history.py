@@ -45,9 +45,7 @@ class History:
             query = query.where(told.is_not(None) if is_acknowledged else told.is_(None))
         if before is not None:
             t_us = microseconds(before[0])
-            query = query.where(
-                or_(table.c.raised_us < t_us, and_(table.c.raised_us == t_us, table.c.id < before[1]))
-            )
+            query = query.where(or_(table.c.raised_us < t_us, and_(table.c.raised_us == t_us, table.c.id < before[1])))
         return self._found(query)
 
     def add(self, alarm: Alarm) -> int:

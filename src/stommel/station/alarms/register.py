@@ -114,12 +114,13 @@ class Register:
         while self._waiting:
             raising = self._waiting[0]
             try:
-                if raising.alarm.id is None:
+                number = raising.alarm.id
+                if number is None:
                     number = self._history.add(raising.alarm)
                     with self._lock:
                         raising.alarm = replace(raising.alarm, id=number)
                 if raising.alarm.cleared is not None:
-                    self._history.clear(raising.alarm.id, raising.alarm.cleared)
+                    self._history.clear(number, raising.alarm.cleared)
             except ArchiveError as error:
                 return kept, str(error)
             self._waiting.popleft()

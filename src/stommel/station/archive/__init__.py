@@ -9,6 +9,7 @@ from stommel.station.archive.errors import (
     ArchiveRequestError,
 )
 from stommel.station.archive.rows import Batch, CtdRow, DiveRow, FrameRow, TextRow
+from stommel.station.archive.series import Series
 
 __all__ = [
     "Archive",
@@ -21,5 +22,6 @@ __all__ = [
     "CtdRow",
     "DiveRow",
     "FrameRow",
+    "Series",
     "TextRow",
 ]

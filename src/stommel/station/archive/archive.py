@@ -12,11 +12,15 @@ from sqlalchemy import URL, Connection, Engine, select
 from stommel.station.archive import migrating
 from stommel.station.archive.address import address_of, file_of, shown
 from stommel.station.archive.connecting import WRITING, engine_of
+from stommel.station.archive.curves import ChannelReader
 from stommel.station.archive.errors import ArchiveBusyError, ArchiveFullError, telling
 from stommel.station.archive.latest import latest_values
-from stommel.station.archive.rows import Batch
+from stommel.station.archive.readers import StoredFrame, stored_ctd, stored_dives, stored_frames, stored_texts
+from stommel.station.archive.rows import Batch, CtdRow, DiveRow, TextRow
 from stommel.station.archive.schema import channels, vehicles
+from stommel.station.archive.series import Series, read_series, window_of
 from stommel.station.archive.storing import write_batch
+from stommel.station.archive.times import GREATEST_TIME
 from stommel.station.archive.upserting import insert_new, upsert
 
 
@@ -130,6 +134,65 @@ class Archive:
         """Time and value of the newest sample of each channel, by its key."""
         with self.reading() as connection:
             return latest_values(connection, vehicle)
+
+    def series(
+        self,
+        vehicle: int,
+        key: str,
+        begin: float,
+        end: float,
+        points: int = 2000,
+        method: str = "minmax",
+        period: float | None = None,
+    ) -> Series:
+        """The samples of a channel from `begin` to `end`, reduced to about `points`, gaps as NaN.
+
+        Parameters
+        ----------
+        vehicle, key
+            A channel that is not there has no samples.
+        begin, end
+            Both among the range [s since 1970].
+        points
+            How many at most, beside those that mark gaps.
+        method
+            'minmax' keeps the lowest and highest of each bucket, 'lttb' the shape, 'raw' everything.
+        period
+            Usual time between samples [s]; taken from the samples if left out.
+
+        Raises
+        ------
+        ArchiveRequestError
+            A value is none that is allowed, or there is too much for 'raw'.
+        """
+        window = window_of(begin, end, points, method, period)
+        with self.reading() as connection:
+            number = connection.execute(select(channels.c.id).where(channels.c.key == key)).scalar()
+            return read_series(ChannelReader(connection, vehicle, -1 if number is None else number, key), window)
+
+    def frames(
+        self, vehicle: int, *, before: int | None = None, limit: int = 100, message: int | None = None
+    ) -> list[StoredFrame]:
+        """The newest frames of a vehicle, newest first: at most `limit`, below the number `before`, of one message."""
+        with self.reading() as connection:
+            return stored_frames(connection, vehicle, before=before, limit=limit, message=message)
+
+    def texts(
+        self, vehicle: int, *, begin: float = 0.0, end: float = GREATEST_TIME, limit: int = 1000
+    ) -> list[TextRow]:
+        """The newest texts of a vehicle in a range [s since 1970], at most `limit`, in order of time."""
+        with self.reading() as connection:
+            return stored_texts(connection, vehicle, begin=begin, end=end, limit=limit)
+
+    def dives(self, vehicle: int, *, begin: float = 0.0, end: float = GREATEST_TIME) -> list[DiveRow]:
+        """The dives of a vehicle that touch a range [s since 1970], in order of their numbers."""
+        with self.reading() as connection:
+            return stored_dives(connection, vehicle, begin=begin, end=end)
+
+    def ctd(self, vehicle: int, *, begin: float = 0.0, end: float = GREATEST_TIME) -> list[CtdRow]:
+        """The CTD samples of a vehicle in a range [s since 1970], in order of time."""
+        with self.reading() as connection:
+            return list(stored_ctd(connection, vehicle, begin=begin, end=end))
 
     def _numbers_of(self, connection: Connection, keys: set[str], added: dict[str, int]) -> Mapping[str, int]:
         """Numbers of channels; new ones go to `added`, as they are only there once they are committed."""

@@ -46,13 +46,14 @@ def telling(name: str) -> Iterator[None]:
     except IntegrityError:
         raise
     except DBAPIError as error:
+        raise _told(name, error.orig) from error
+    except sqlite3.Error as error:  # while rows are read
         raise _told(name, error) from error
     except NoConnectionError as error:
         raise ArchiveBusyError(f"{name}: too many queries at once; try again in a moment") from error
 
 
-def _told(name: str, error: DBAPIError) -> ArchiveError:
-    origin = error.orig
+def _told(name: str, origin: BaseException | None) -> ArchiveError:
     code = getattr(origin, "sqlite_errorname", None) or getattr(origin, "sqlstate", None) or ""
     for kind, codes, words in _SENTENCES:
         if code.startswith(codes):

@@ -87,24 +87,31 @@ samples = Table(
 )
 """No foreign keys: `store` alone writes here, and each would be looked up thousands of times a second."""
 
-minutes = Table(
-    "minutes",
-    metadata,
-    Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
-    Column("channel_id", Integer, primary_key=True, autoincrement=False),
-    Column("minute", BigInteger, primary_key=True, autoincrement=False),  # t_us // 60 000 000
-    Column("count", BigInteger, nullable=False),
-    Column("total", Double, nullable=False),
-    Column("first_t_us", BigInteger, nullable=False),
-    Column("first", Double, nullable=False),
-    Column("last_t_us", BigInteger, nullable=False),
-    Column("last", Double, nullable=False),
-    Column("low_t_us", BigInteger, nullable=False),
-    Column("low", Double, nullable=False),
-    Column("high_t_us", BigInteger, nullable=False),
-    Column("high", Double, nullable=False),
-    sqlite_with_rowid=False,
-)
+
+def _cells(name: str, number: str) -> Table:
+    """What the samples of a channel come to in each stretch of time; `number` counts these since 1970."""
+    return Table(
+        name,
+        metadata,
+        Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
+        Column("channel_id", Integer, primary_key=True, autoincrement=False),
+        Column(number, BigInteger, primary_key=True, autoincrement=False),
+        Column("count", BigInteger, nullable=False),
+        Column("total", Double, nullable=False),
+        Column("first_t_us", BigInteger, nullable=False),
+        Column("first", Double, nullable=False),
+        Column("last_t_us", BigInteger, nullable=False),
+        Column("last", Double, nullable=False),
+        Column("low_t_us", BigInteger, nullable=False),
+        Column("low", Double, nullable=False),
+        Column("high_t_us", BigInteger, nullable=False),
+        Column("high", Double, nullable=False),
+        sqlite_with_rowid=False,
+    )
+
+
+minutes = _cells("minutes", "minute")
+hours = _cells("hours", "hour")
 
 texts = Table(
     "texts",
@@ -156,6 +163,7 @@ commands = Table(
     Column("expires_us", BigInteger, nullable=False),
     Column("name", String, nullable=False),
     Column("parameters", JSON, nullable=False),
+    Column("occasion", String, nullable=False),  # when it may be executed: at_once, at_next_surfacing, until_expiry
     Column("state", String, nullable=False),
     Column("outcome", Text),
     Column("changed_us", BigInteger, nullable=False),
@@ -304,6 +312,18 @@ tokens = Table(
     Column("expires_us", BigInteger),
     Column("last_used_us", BigInteger),
 )
+
+holders = Table(
+    "holders",
+    metadata,
+    Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
+    Column("user", String, nullable=False),  # no key of users: "local" is none of them
+    Column("role", String, nullable=False),
+    Column("since_us", BigInteger, nullable=False),
+    Column("taken_from", String),
+    Column("reason", Text),
+)
+"""Who holds command of a vehicle; no row where nobody does."""
 
 audit = Table(
     "audit",

@@ -8,10 +8,10 @@ from typing import Any
 
 from sqlalchemy import Connection, insert
 
-from stommel.station.archive.minute_cells import Place, keep_up
+from stommel.station.archive.cells import Point, keep_up
 from stommel.station.archive.rows import Batch, CtdRow, DiveRow, FrameRow
 from stommel.station.archive.schema import ctd, dives, frames, samples, texts, vehicles
-from stommel.station.archive.times import MINUTE_US, is_time, microseconds
+from stommel.station.archive.times import is_time, microseconds
 from stommel.station.archive.upserting import insert_new, upsert
 
 
@@ -65,11 +65,11 @@ def _write_samples(
     for key, t, value in given:
         if is_time(t) and math.isfinite(value):
             values[number[key], round(t * 1e6)] = float(value)
-    new: dict[Place, list[tuple[int, float]]] = defaultdict(list)
+    new: dict[int, list[Point]] = defaultdict(list)
     rows = []
     for (channel, t_us), value in sorted(values.items()):
         rows.append({"vehicle_id": vehicle, "channel_id": channel, "t_us": t_us, "value": value})
-        new[channel, t_us // MINUTE_US].append((t_us, value))
+        new[channel].append((t_us, value))
     upsert(connection, samples, rows)
     if new:
         keep_up(connection, vehicle, new)

@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from stommel.control.dive_cycle import PHASES
+from stommel.control.vehicle_limits import VehicleLimits
 from stommel.files.fields import Name, Table
 from stommel.files.kinds import Format
 from stommel.onboard.coordination.config.by_phase import Interval
@@ -24,7 +25,6 @@ from stommel.onboard.coordination.config.tables import (
     RadioPort,
     Safety,
 )
-from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits
 
 _PORTS = ("compass", "gnss", "radio", "bench")
 _PASCAL_PER_METRE = 1e4

@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 from stommel.control.orders import Orders
 from stommel.control.orders_file import OrdersHeader, parse_orders
+from stommel.control.vehicle_limits import VehicleLimits, refusals
 from stommel.errors import FileError, Problem, StommelError
 from stommel.files.sealing import sealed, unsealed
 from stommel.files.storage import Storage, replace_whole
 from stommel.onboard.coordination.stores.reception_store import ReceptionStore
-from stommel.onboard.coordination.stores.vehicle_limits import VehicleLimits, refusals
 
 _NAME = re.compile(r"mission-(\d{6,})\.orders")
 _PART = "mission.part"

@@ -1,7 +1,19 @@
-"""The routes of the API, one file a concern; a helper of a concern adds its router to the tuple."""
+"""The routes of the API, one file a concern; a new concern adds its router to the tuple."""
 
 from fastapi import APIRouter
 
-from stommel.station.web.routes import station
+from stommel.station.web.routes import (
+    commands,
+    data,
+    people,
+    station,
+    vehicles,
+)
 
-ROUTERS: tuple[APIRouter, ...] = (station.router,)
+ROUTERS: tuple[APIRouter, ...] = (
+    station.router,
+    people.router,
+    vehicles.router,
+    commands.router,
+    data.router,
+)

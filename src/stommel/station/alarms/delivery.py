@@ -1,0 +1,141 @@
+"""How alerts go out: what can go wrong, secrets from files, and a courier that tries again."""
+
+from collections import deque
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from threading import Event, Lock, Thread
+from typing import Protocol
+
+from stommel.errors import StommelError, one_line
+from stommel.station.alarms.alert_policy import Alert
+
+MOST_WAITING = 1000
+"""Alerts that wait for a way that fails; beyond it the oldest is dropped."""
+MOST_TOGETHER = 50
+"""Alerts in one message."""
+PATIENCE_S = 20.0
+"""For the other end to answer."""
+WAITS_S = (5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 300.0)
+"""Before each further try; the last one for ever."""
+_LARGEST_SECRET = 4096
+
+
+class DeliveryError(StommelError):
+    """An alert did not go out; the message says why."""
+
+
+class Way(Protocol):
+    """A way to people: an e-mail server, a webhook."""
+
+    @property
+    def name(self) -> str:
+        """What people call it."""
+
+    def send(self, alerts: Sequence[Alert]) -> None:
+        """Send one message with all of them.
+
+        Raises
+        ------
+        DeliveryError
+            It did not go out.
+        """
+
+
+def secret_of(path: Path) -> str:
+    """Return the secret that a file holds, without the line's end.
+
+    Raises
+    ------
+    DeliveryError
+        It cannot be read, or holds none.
+    """
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST_SECRET + 1)
+        secret = content.decode().strip()
+    except (OSError, UnicodeDecodeError) as error:
+        raise DeliveryError(f"{path}: the secret cannot be read: {reason_of(error)}") from error
+    if not secret or len(content) > _LARGEST_SECRET:
+        raise DeliveryError(f"{path}: must hold a secret of 1 to {_LARGEST_SECRET} bytes")
+    return secret
+
+
+def reason_of(error: BaseException) -> str:
+    """What an error says, on one short line."""
+    told = getattr(error, "strerror", None) or str(error) or type(error).__name__
+    return one_line(str(told), 200)
+
+
+class Courier:
+    """Brings alerts along one way, in a thread of its own; what does not go out is tried again, ever more slowly.
+
+    Parameters
+    ----------
+    way
+        Where they go.
+    report
+        Is told why nothing goes out, or nothing when it does again.
+    waits
+        Before each further try [s].
+    """
+
+    def __init__(self, way: Way, report: Callable[[str, str], None], waits: Sequence[float] = WAITS_S) -> None:
+        self.way = way
+        self._report, self._waits = report, waits
+        self._lock = Lock()
+        self._waiting: deque[Alert] = deque()
+        self._woken, self._stopped = Event(), Event()
+        self._thread = Thread(target=self._run, name=f"alerts by {way.name}", daemon=True)
+        self.dropped = 0
+
+    def start(self) -> None:
+        """Begin to bring."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End soon; what is just going out may still do so."""
+        self._stopped.set()
+        self._woken.set()
+        if self._thread.is_alive():
+            self._thread.join(1.0)
+
+    def put(self, alerts: Sequence[Alert]) -> None:
+        """Take alerts; never waits."""
+        with self._lock:
+            self._waiting.extend(alerts)
+            while len(self._waiting) > MOST_WAITING:
+                self._waiting.popleft()
+                self.dropped += 1
+        self._woken.set()
+
+    def _run(self) -> None:
+        tries = 0
+        while not self._stopped.is_set():
+            if not self._waiting:
+                self._woken.wait()
+                self._woken.clear()
+                continue
+            if self._is_brought():
+                tries = 0
+                continue
+            self._stopped.wait(self._waits[min(tries, len(self._waits) - 1)])
+            tries += 1
+
+    def _is_brought(self) -> bool:
+        """Try to bring what waits longest."""
+        with self._lock:
+            together = [self._waiting[place] for place in range(min(len(self._waiting), MOST_TOGETHER))]
+        try:
+            self.way.send(together)
+        except DeliveryError as error:
+            self._report(self.way.name, str(error))
+            return False
+        except Exception as error:  # noqa: BLE001 - a defect must not end the only word to people who are away
+            self._report(self.way.name, f"{self.way.name}: {type(error).__name__}: {reason_of(error)}")
+            return False
+        with self._lock:
+            for alert in together:
+                if self._waiting and self._waiting[0] is alert:
+                    self._waiting.popleft()
+        self._report(self.way.name, "")
+        return True

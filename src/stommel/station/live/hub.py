@@ -1,0 +1,139 @@
+"""The hub: what vehicles bring, handed on to everybody who watches, without ever waiting for any of them."""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from threading import Lock
+
+from stommel.errors import StommelError
+from stommel.station.live.events import Event, Samples, Summary, Vehicle
+from stommel.station.live.subscription import EverySample, LatestValues, News
+
+MOST_CHANNELS = 200
+"""Of one subscription."""
+MOST_READERS = 2000
+"""Subscriptions at a time."""
+
+
+class SubscriptionError(StommelError):
+    """A subscription that cannot be."""
+
+
+class Hub:
+    """Latest values, and who waits for news. Every method may be called from any thread."""
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._latest: dict[Vehicle, dict[str, tuple[float, float]]] = {}
+        self._clocks: dict[Vehicle, Callable[[], float]] = {}
+        self._summaries: dict[Vehicle, Summary] = {}
+        self._readers: dict[Vehicle, tuple[LatestValues | EverySample, ...]] = {}
+        self._news: tuple[News, ...] = ()
+
+    # who brings
+
+    def open(
+        self, vehicle: Vehicle, now: Callable[[], float], latest: Mapping[str, tuple[float, float]] | None = None
+    ) -> None:
+        """Take in a vehicle with its clock, and the values that are known of it."""
+        with self._lock:
+            self._clocks[vehicle] = now
+            self._latest.setdefault(vehicle, {}).update(latest or {})
+
+    def forget(self, vehicle: Vehicle) -> None:
+        """Drop a vehicle, such as a replay that has ended, and end whoever waits for its values."""
+        with self._lock:
+            readers = self._readers.pop(vehicle, ())
+            for known in (self._latest, self._clocks, self._summaries):
+                known.pop(vehicle, None)
+        for reader in readers:
+            reader.close()
+
+    def publish(self, event: Event) -> None:
+        """Hand something on. Never waits."""
+        if isinstance(event, Samples):
+            self._publish_samples(event)
+            return
+        if isinstance(event, Summary):
+            with self._lock:
+                self._summaries[event.vehicle] = event
+        for news in self._news:
+            if not news.is_closed:
+                news.take(event)
+        self._sweep()
+
+    def _publish_samples(self, event: Samples) -> None:
+        with self._lock:
+            latest = self._latest.setdefault(event.vehicle, {})
+            for key, t, value in event.samples:
+                known = latest.get(key)
+                if known is None or t >= known[0]:
+                    latest[key] = (t, value)
+            readers = self._readers.get(event.vehicle, ())
+        for reader in readers:
+            if not reader.is_closed:
+                reader.take(event)
+        if any(reader.is_closed for reader in readers):
+            self._sweep()
+
+    # who watches
+
+    def values(self, vehicle: Vehicle) -> dict[str, tuple[float, float]]:
+        """Time and value of the latest of each channel."""
+        with self._lock:
+            return dict(self._latest.get(vehicle, {}))
+
+    def now(self, vehicle: Vehicle) -> float:
+        """Time of a vehicle [s since 1970]; UTC for one that is not known."""
+        clock = self._clocks.get(vehicle)
+        return time.time() if clock is None else clock()
+
+    def knows(self, vehicle: Vehicle) -> bool:
+        """Whether there is such a vehicle."""
+        return vehicle in self._clocks
+
+    def subscribe(
+        self, identity: str, vehicle: Vehicle, channels: Sequence[str], every: bool = False
+    ) -> LatestValues | EverySample:
+        """Values of some channels of a vehicle, by the name that the reader gives.
+
+        The latest of each, at once and when they change; or every sample from now on.
+
+        Raises
+        ------
+        SubscriptionError
+            There is no such vehicle, or too much is asked for.
+        """
+        if not self.knows(vehicle):
+            raise SubscriptionError(f"vehicle {vehicle}: this station has none of that number")
+        if len(channels) > MOST_CHANNELS:
+            raise SubscriptionError(f"channels: {len(channels)} were asked for; at most {MOST_CHANNELS} are allowed")
+        wanted = frozenset(channels)
+        reader = (
+            EverySample(identity, vehicle, wanted)
+            if every
+            else LatestValues(identity, vehicle, wanted, lambda: (self.now(vehicle), self.values(vehicle)))
+        )
+        self._sweep()
+        with self._lock:
+            if sum(map(len, self._readers.values())) >= MOST_READERS:
+                raise SubscriptionError(f"{MOST_READERS} subscriptions are open; close a page")
+            self._readers[vehicle] = (*self._readers.get(vehicle, ()), reader)
+        return reader
+
+    def watch(self) -> News:
+        """Summaries and happenings of all vehicles, the last summary of each at once."""
+        news = News()
+        with self._lock:
+            if len(self._news) >= MOST_READERS:
+                raise SubscriptionError(f"{MOST_READERS} pages are open; close one")
+            for summary in self._summaries.values():
+                news.take(summary)
+            self._news = (*self._news, news)
+        return news
+
+    def _sweep(self) -> None:
+        """Forget who has gone."""
+        with self._lock:
+            self._news = tuple(news for news in self._news if not news.is_closed)
+            for vehicle, readers in list(self._readers.items()):
+                self._readers[vehicle] = tuple(reader for reader in readers if not reader.is_closed)

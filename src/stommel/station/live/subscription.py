@@ -1,0 +1,129 @@
+"""What readers can wait for: the latest values, every sample, or what happens."""
+
+from collections import deque
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from stommel.station.live.events import Happening, Samples, Summary, Vehicle
+from stommel.station.live.mailbox import Mailbox, Message
+
+VALUES_EVERY = 0.2
+"""Shortest time between two messages [s]."""
+MOST_SAMPLES = 50_000
+"""That wait for a reader of every sample."""
+MOST_HAPPENINGS = 1000
+
+Latest = Mapping[str, tuple[float, float]]
+
+
+class LatestValues(Mailbox):
+    """The latest value of each channel, those that have changed; a slow reader skips."""
+
+    def __init__(
+        self, identity: str, vehicle: Vehicle, channels: frozenset[str], look: Callable[[], tuple[float, Latest]]
+    ) -> None:
+        super().__init__(VALUES_EVERY)
+        self.vehicle = vehicle
+        self._identity, self._channels, self._look = identity, channels, look
+        self._sent: dict[str, tuple[float, float]] = {}
+        self._is_first = True
+
+    def take(self, event: Samples) -> None:  # noqa: ARG002 - the hub has the latest
+        """Take note that there is something new."""
+        self.ring()
+
+    def collect(self) -> Message | None:
+        """What has changed since the last time; at first what there is, even if that is nothing."""
+        now, latest = self._look()
+        news = {
+            key: latest[key] for key in self._channels if key in latest and self._sent.get(key) != latest[key]
+        }  # fmt: skip
+        if not news and not self._is_first:
+            return None
+        self._is_first = False
+        self._sent.update(news)
+        return {
+            "type": "values", "id": self._identity, "vehicle": self.vehicle, "now": now,
+            "values": {key: list(pair) for key, pair in news.items()},
+        }  # fmt: skip
+
+
+class EverySample(Mailbox):
+    """All samples; a reader that is too slow is told from when on some are missing."""
+
+    def __init__(self, identity: str, vehicle: Vehicle, channels: frozenset[str]) -> None:
+        super().__init__(VALUES_EVERY)
+        self.vehicle = vehicle
+        self._identity, self._channels = identity, channels
+        self._waiting: deque[Samples] = deque()
+        self._count = 0
+        self._gap: float | None = None
+
+    def take(self, event: Samples) -> None:
+        """Take what came."""
+        with self._lock:
+            self._waiting.append(event)
+            self._count += len(event.samples)
+            while self._count > MOST_SAMPLES and len(self._waiting) > 1:
+                dropped = self._waiting.popleft()
+                self._count -= len(dropped.samples)
+                first = min(t for _, t, _ in dropped.samples)
+                self._gap = first if self._gap is None else min(first, self._gap)
+        self.ring()
+
+    def collect(self) -> Message | None:
+        """All that waits, or that some was lost."""
+        with self._lock:
+            gap, self._gap = self._gap, None
+            if gap is not None:
+                return {"type": "gap", "id": self._identity, "vehicle": self.vehicle, "from": gap}
+            waiting, self._waiting, self._count = list(self._waiting), deque(), 0
+        found: dict[str, tuple[list[float], list[float]]] = {}
+        for event in waiting:
+            for key, t, value in event.samples:
+                if key in self._channels:
+                    times, values = found.setdefault(key, ([], []))
+                    times.append(t)
+                    values.append(value)
+        if not found:
+            return None
+        return {
+            "type": "samples", "id": self._identity, "vehicle": self.vehicle, "now": waiting[-1].now,
+            "samples": {key: list(pair) for key, pair in found.items()},
+        }  # fmt: skip
+
+
+class News(Mailbox):
+    """Happenings, and the latest summary of each vehicle, which tells itself at most once a second."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._happenings: deque[Happening] = deque(maxlen=MOST_HAPPENINGS)
+        self._lost = 0
+        self._summaries: dict[Vehicle, Mapping[str, Any]] = {}
+
+    def take(self, event: Happening | Summary) -> None:
+        """Take what happened."""
+        with self._lock:
+            if isinstance(event, Summary):
+                self._summaries[event.vehicle] = event.summary
+            else:
+                self._lost += len(self._happenings) == MOST_HAPPENINGS
+                self._happenings.append(event)
+        self.ring()
+
+    def collect(self) -> Message | None:
+        """The happening that waits longest, or a summary."""
+        with self._lock:
+            if self._lost:
+                lost, self._lost = self._lost, 0
+                return {"type": "gap", "id": "", "lost": lost}
+            if self._happenings:
+                found = self._happenings.popleft()
+                return {"type": "event", "kind": found.kind, "vehicle": found.vehicle, "data": found.data}
+            for vehicle in self._summaries:
+                return {"type": "summary", "vehicle": vehicle, "summary": self._summaries.pop(vehicle)}
+        return None
+
+
+Subscription = LatestValues | EverySample | News

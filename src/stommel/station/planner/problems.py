@@ -1,0 +1,78 @@
+"""What is wrong with a plan, for people: the key, its value, the reason, and what is allowed."""
+
+import re
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from pydantic import ValidationError
+
+from stommel.errors import FileError, StommelError
+from stommel.files.sentences import sentences
+from stommel.station.planner.plan import StationPlan
+
+_SENTENCE = re.compile(r"(?P<key>[A-Za-z_][\w.]*)(?: = (?P<value>.+?))?: (?P<rest>.+)", re.DOTALL)
+_ALLOWED = re.compile(r"\bmust be ([^;]+)")
+_LONGEST_KEY = 120
+
+
+@dataclass(frozen=True)
+class PlanProblem:
+    """One thing wrong with a plan."""
+
+    key: str
+    """Dotted, as `dives.depth_m` or `waypoints.2`; empty for the plan as a whole."""
+    value: str
+    """As it was given, in words; empty where there is none."""
+    reason: str
+    """A sentence."""
+    allowed: str
+    """What may stand there; empty where the reason says it all."""
+
+    def as_row(self) -> dict[str, str]:
+        """The problem as JSON has it."""
+        return asdict(self)
+
+
+class PlanError(StommelError):
+    """A plan that cannot be; `problems` holds everything found wrong with it."""
+
+    def __init__(self, problems: Iterable[PlanProblem]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("\n".join(problem.reason for problem in self.problems))
+
+
+def problem(key: str, sentence: str) -> PlanProblem:
+    """Take a sentence apart that names key, value and what is allowed, as all of stommel's do."""
+    found = _SENTENCE.fullmatch(sentence)
+    value = (found["value"] or "") if found is not None else ""
+    allowed = _ALLOWED.search(sentence)
+    if not key and found is not None and len(found["key"]) <= _LONGEST_KEY:
+        key = found["key"]
+    return PlanProblem(key, value, sentence, allowed[1].strip() if allowed is not None else "")
+
+
+def problems_of(error: ValidationError | StommelError, origin: str = "") -> list[PlanProblem]:
+    """Everything that an error says is wrong; `origin` is how its sentences name the plan, and is left out."""
+    if isinstance(error, ValidationError):
+        return [problem(key, sentence) for key, sentence in sentences(error, StationPlan)]
+    if isinstance(error, PlanError):
+        return list(error.problems)
+    if isinstance(error, FileError):
+        return [problem(each.key, each.message) for each in error.problems]
+    lines = str(error).replace("ballasting.neutral_depth_m", "neutral_density_kg_m3").splitlines()
+    return [problem("", line.removeprefix(f"{origin}: ")) for line in lines]
+
+
+def plan_from(document: Any) -> StationPlan:
+    """Read a plan from the values of its JSON.
+
+    Raises
+    ------
+    PlanError
+        Every key that is unknown, missing or out of range.
+    """
+    try:
+        return StationPlan.model_validate(document)
+    except ValidationError as error:
+        raise PlanError(problems_of(error)) from None

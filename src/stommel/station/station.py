@@ -1,0 +1,165 @@
+"""The shore station: archive, vehicles and everybody who watches them, wired."""
+
+import time
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from typing import Any
+
+from stommel.files.folder_lock import FolderInUseError, locked
+from stommel.link.transports.address import read_address
+from stommel.station.archive import Archive, Batch
+from stommel.station.live.events import Happening
+from stommel.station.live.hub import Hub
+from stommel.station.people.holders import Hold
+from stommel.station.people.people import People
+from stommel.station.settings import StationSettings, VehicleSettings
+from stommel.station.vehicles.attached import VehicleNews
+from stommel.station.vehicles.commands import Commands
+from stommel.station.vehicles.line import VehicleLine
+from stommel.station.vehicles.opening import VehicleError
+from stommel.station.watching import alarms_of, watch
+
+Watcher = Callable[[int, Batch, float], None]
+"""Vehicle, what was stored, and the time of the vehicle [s since 1970]; called in the line's thread."""
+Completer = Callable[[int, dict[str, Any]], None]
+"""Vehicle, and its summary, to which something is added."""
+
+
+class Station:
+    """A whole station; nothing runs before `start`.
+
+    Parameters
+    ----------
+    settings
+        What it was told.
+
+    Raises
+    ------
+    StommelError
+        Its folder, archive, or a vehicle cannot be used.
+    """
+
+    def __init__(self, settings: StationSettings) -> None:
+        self.settings = settings
+        self.hub = Hub()
+        self.vehicles: dict[int, VehicleLine] = {}
+        self.news: dict[int, VehicleNews] = {}
+        self.watchers: list[Watcher] = []
+        """Are told of everything that was stored."""
+        self.completers: list[Completer] = []
+        """Add to summaries."""
+        self._holders: dict[int, Hold | None] = {}
+        self._held = ExitStack()
+        self._is_started = False
+        try:
+            self._lock_folder()
+            self.archive = Archive.open(settings.database_url)
+            self._held.callback(self.archive.close)
+            self.people = People(self.archive, told=self._holder_changed)
+            self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
+            self.commands = Commands(self.archive, self.hub, self.vehicles)
+            for vehicle in settings.vehicles:
+                self._attach(vehicle)
+        except BaseException:
+            self._close()
+            raise
+
+    def start(self) -> None:
+        """Begin to listen to all vehicles."""
+        self._is_started = True
+        self.alarms.start()
+        for line in self.vehicles.values():
+            line.start()
+
+    def stop(self) -> None:
+        """End: everything that came is stored, and given back."""
+        self._close()
+
+    def attach(self, settings: VehicleSettings) -> VehicleLine:
+        """Take in another vehicle while the station runs.
+
+        Raises
+        ------
+        StommelError
+            Its number or its line is taken, or it cannot be used.
+        """
+        if settings.vehicle in self.vehicles:
+            raise VehicleError(f"vehicle {settings.vehicle}: this station has it already")
+        for line in self.vehicles.values():
+            if line.settings.link == settings.link and read_address(settings.link).number:
+                raise VehicleError(
+                    f"link = {settings.link}: leads to vehicle {line.vehicle} already; each vehicle needs its own line"
+                )
+        line = self._attach(settings)
+        if self._is_started:
+            line.start()
+        return line
+
+    def summary(self, vehicle: int) -> dict[str, Any]:
+        """How a vehicle is, as `GET /vehicles` tells it."""
+        return self.news[vehicle].summary(self.vehicles[vehicle])
+
+    def now(self, vehicle: int | None = None) -> float:
+        """Time of a vehicle, or of the station [s since 1970]."""
+        return time.time() if vehicle is None else self.vehicles[vehicle].clock.now()
+
+    def _attach(self, settings: VehicleSettings) -> VehicleLine:
+        number = settings.vehicle
+        self.archive.know(number, settings.title, settings.model)
+        news = VehicleNews(settings, self.archive, self.hub, self._complete)
+        line = VehicleLine(settings, self.settings.folder, self.archive, self._committed)
+        self.hub.open(number, line.clock.now, self.archive.latest(number))
+        line.followers.append(news)
+        self.commands.follow(line)
+        self.vehicles[number], self.news[number] = line, news
+        self._holders[number] = self.people.holders.of(number)
+        watch(self.alarms, line, lambda: self.summary(number))
+        return line
+
+    def _committed(self, line: VehicleLine, batch: Batch) -> None:
+        self.news[line.vehicle].committed(line, batch)
+        if batch.samples:
+            self.alarms.take(line.vehicle, batch.samples)
+        for watcher in self.watchers:
+            watcher(line.vehicle, batch, line.clock.now())
+
+    def _complete(self, vehicle: int, summary: dict[str, Any]) -> None:
+        hold = self._holders.get(vehicle)
+        summary["holder"] = None if hold is None else hold.user
+        known = {alarm["key"] for alarm in summary["alarms"]}
+        summary["alarms"] += [
+            {"key": alarm.key, "words": alarm.words, "severity": alarm.severity}
+            for alarm in self.alarms.open_of(vehicle)
+            if alarm.key not in known
+        ]
+        for completer in self.completers:
+            completer(vehicle, summary)
+
+    def _holder_changed(self, vehicle: int, hold: Hold | None) -> None:
+        self._holders[vehicle] = hold
+        told = {"vehicle": vehicle, "user": None} if hold is None else hold._asdict()
+        self.hub.publish(Happening("holder", vehicle, told))
+
+    def _title(self, vehicle: int) -> str:
+        line = self.vehicles.get(vehicle)
+        return f"vehicle {vehicle}" if line is None else line.settings.title
+
+    def _lock_folder(self) -> None:
+        folder = self.settings.folder
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            self._held.enter_context(locked(folder))
+        except FolderInUseError:
+            raise VehicleError(
+                f"folder = {folder}: another station uses it; end that one, or give another folder"
+            ) from None
+        except OSError as error:
+            raise VehicleError(f"folder = {folder}: cannot be used: {error.strerror or error}") from None
+
+    def _close(self) -> None:
+        lines: Sequence[VehicleLine] = list(self.vehicles.values())
+        for line in lines:
+            line.stop()
+        if self._is_started:
+            self.alarms.stop()
+        self._held.close()

@@ -1,0 +1,318 @@
+"""The line to one vehicle: a thread that hears, keeps, and only then answers."""
+
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from contextlib import ExitStack
+from pathlib import Path
+from queue import Empty, Full, Queue
+from threading import Event, Thread
+from typing import NamedTuple, Protocol, TypeVar
+
+from stommel.link.shore.shore_end import ShoreEnd
+from stommel.link.statistics import LinkStatistics
+from stommel.link.transports.opening import open_transport
+from stommel.link.transports.transport import Transport, TransportError, TransportState
+from stommel.station.archive import Archive, ArchiveError, ArchiveRequestError, Batch
+from stommel.station.settings import VehicleSettings
+from stommel.station.vehicles.abort_only import AbortOnly
+from stommel.station.vehicles.ingest import Ingest
+from stommel.station.vehicles.opening import VehicleError, open_end
+
+BUSY, QUIET = 0.01, 0.05
+"""Between two looks at a line on which something goes on, and at one that is silent [s]."""
+GOES_ON = 2.0
+"""After something came, or was asked for, a line is looked at often [s]."""
+AGAIN = 1.0
+"""Between two tries of what has failed: transport, archive, a look [s]."""
+OWN_EVERY = 1.0
+"""What only the station has said is kept as late [s]."""
+CLOCK_EVERY = 30.0
+STATUS_EVERY = 0.25
+AHEAD = 65_536
+"""Bytes that may wait in the transport."""
+MOST_REQUESTS = 1000
+
+T = TypeVar("T")
+
+
+class LineStatus(NamedTuple):
+    """How the line to a vehicle is; times are those of the vehicle [s since 1970]."""
+
+    heard: bool
+    since: float | None
+    """Since when it is heard without a pause."""
+    last_contact: float | None
+    transport: str
+    """Address."""
+    is_open: bool
+    reason: str
+    """Why the vehicle is not heard, in words; empty while it is."""
+    archive: str
+    """Why what comes is not kept, in words; empty while it is."""
+    waiting: int
+    """Frames that the archive does not have yet."""
+    statistics: LinkStatistics
+    notes: tuple[str, ...]
+
+
+class Follower(Protocol):
+    """Something that goes on over many looks; everything of it happens in the line's thread."""
+
+    def look(self, line: "VehicleLine", t: float) -> None:
+        """Look what has become of it at a time of the link [s]; ArchiveError is borne and tried again."""
+
+
+class VehicleLine:
+    """Speaks to one vehicle. Everything about its `end` happens in its own thread; others `ask`.
+
+    Parameters
+    ----------
+    settings
+        Which vehicle, and where it is.
+    folder
+        Of the station; the vehicle has one of its own there.
+    archive
+        Keeps everything that comes, before it is answered.
+    committed
+        Called with what was stored, in the line's thread; must not wait.
+
+    Raises
+    ------
+    StommelError
+        Folder, key or address cannot be used.
+    """
+
+    def __init__(
+        self,
+        settings: VehicleSettings,
+        folder: Path,
+        archive: Archive,
+        committed: Callable[["VehicleLine", Batch], None],
+    ) -> None:
+        self.settings, self.vehicle, self.folder = settings, settings.vehicle, folder
+        self._held = ExitStack()
+        try:
+            self.end, self._storage, self.clock = open_end(settings, folder, self._held)
+        except BaseException:
+            self._held.close()
+            raise
+        self.ingest = Ingest(self.vehicle, self.clock, self.end.heard)
+        self.followers: list[Follower] = []
+        self.archive_reason = ""
+        """Why what comes is not kept, in words."""
+        self.failures = 0
+        """Looks that went wrong."""
+        self.failure = ""
+        """The last of them, in words."""
+        self._archive, self._committed = archive, committed
+        self._services = self.end.session.services
+        self._transport: Transport | None = None
+        self._transport_reason, self._open_at = "not tried yet", 0.0
+        self._store_at = self._clock_at = self._status_at = 0.0
+        self._lively = 0.0
+        self._requests: Queue[tuple[Callable[[ShoreEnd, float], object], Future[object]]] = Queue(MOST_REQUESTS)
+        self._wake, self._ends = Event(), Event()
+        self._status = self._seen(self.clock.link_now())
+        self._thread = Thread(target=self._run, name=f"vehicle-{self.vehicle}", daemon=True)
+
+    # from other threads
+
+    def start(self) -> None:
+        """Begin to listen."""
+        self._thread.start()
+
+    def stop(self, within: float = 5.0) -> None:
+        """End, with all that came stored if the archive takes it."""
+        self._ends.set()
+        self._wake.set()
+        if self._thread.ident is not None:
+            self._thread.join(within)
+        self._held.close()
+
+    def ask(self, function: Callable[[ShoreEnd, float], T]) -> "Future[T]":
+        """Let the line's thread call a function with the end and the time of the link, at its next look.
+
+        Raises
+        ------
+        VehicleError
+            Too many wait already, or the line has ended.
+        """
+        future: Future[T] = Future()
+        if self._ends.is_set():
+            raise VehicleError(f"vehicle {self.vehicle}: the station ends")
+        try:
+            self._requests.put_nowait((function, future))  # type: ignore[arg-type]
+        except Full:
+            raise VehicleError(f"vehicle {self.vehicle}: {MOST_REQUESTS} requests wait; try again later") from None
+        self._wake.set()
+        return future
+
+    def status(self) -> LineStatus:
+        """How the line was when its thread looked last."""
+        return self._status
+
+    def _seen(self, t: float) -> LineStatus:
+        presence = self.end.presence.peers.get(self.end.vehicle)
+        heard = presence is not None and presence.is_heard(t)
+        since = self.clock.of_link(presence.since) if presence is not None and heard else None
+        transport = self._transport
+        notes = [*self.end.session.notes, *self.end.commands.notes]
+        if self.failure:
+            notes.append(self.failure)
+        return LineStatus(
+            heard, since, self.ingest.heard_at, self.settings.link if transport is None else transport.name,
+            transport is not None and transport.state is TransportState.OPEN, "" if heard else self._complaint(t),
+            self.archive_reason, len(self.ingest.frames), self.end.link(t), tuple(notes),
+        )  # fmt: skip
+
+    @property
+    def is_running(self) -> bool:
+        """Whether its thread lives."""
+        return self._thread.is_alive()
+
+    # the thread
+
+    def _run(self) -> None:
+        while not self._ends.is_set():
+            try:
+                self._look()
+            except Exception as error:  # noqa: BLE001 - one bad look shall not end the line
+                self.failures += 1
+                self.failure = f"a look at the line failed: {type(error).__name__}: {error}"[:300]
+                self._ends.wait(AGAIN)
+            self._wake.wait(BUSY if time.monotonic() < self._lively else QUIET)
+            self._wake.clear()
+        self._finish()
+
+    def _look(self) -> None:
+        real, t = time.monotonic(), self.clock.link_now()
+        transport = self._opened(real)
+        data = b"" if transport is None or self.ingest.is_full else transport.read(real)
+        if data:
+            self._lively = real + GOES_ON
+        self.ingest.hear(data, self.end.session.take(data, t), t)
+        self._serve(t)
+        if self.end.is_heard(t):
+            self.ingest.look_at_link(self.end.link(t), t)
+        kept = self._keep(real) and not self.ingest.is_early
+        if kept:
+            self._follow(t)
+        if transport is not None:
+            self._speak(transport, real, t, kept=kept)
+        self._keep_clock(real)
+        if real - self._status_at >= STATUS_EVERY:
+            self._status_at, self._status = real, self._seen(t)
+
+    def _opened(self, real: float) -> Transport | None:
+        if self._transport is None and real >= self._open_at:
+            self._open_at = real + AGAIN
+            try:
+                self._transport = open_transport(self.settings.link, f"vehicles.{self.vehicle}.link")
+            except TransportError as error:
+                self._transport_reason = str(error)
+        return self._transport
+
+    def _serve(self, t: float) -> None:
+        """Do what others have asked for."""
+        for _ in range(MOST_REQUESTS):
+            try:
+                function, future = self._requests.get_nowait()
+            except Empty:
+                return
+            self._lively = time.monotonic() + GOES_ON
+            if not future.set_running_or_notify_cancel():
+                continue
+            try:
+                future.set_result(function(self.end, t))
+            except Exception as error:  # noqa: BLE001 - told to whoever asked
+                future.set_exception(error)
+
+    def _keep(self, real: float) -> bool:
+        """Store what came; whether everything that came is on the disk."""
+        ingest = self.ingest
+        is_due = ingest.has_news or (ingest.frames and real - self._store_at >= OWN_EVERY)
+        if not is_due:
+            return not self.archive_reason
+        if self.archive_reason and real - self._store_at < AGAIN:
+            return False
+        self._store_at = real
+        batch = ingest.batch()
+        try:
+            self._archive.store(self.vehicle, batch)
+        except ArchiveRequestError as error:
+            self.failure = f"what came is kept as frames only: {error}"
+            ingest.keep_frames_only()
+            return False
+        except ArchiveError as error:
+            self.archive_reason = str(error)
+            return False
+        ingest.stored()
+        self.archive_reason = ""
+        self._committed(self, batch)
+        return True
+
+    def _follow(self, t: float) -> None:
+        for follower in list(self.followers):
+            try:
+                follower.look(self, t)
+            except ArchiveError as error:
+                self.archive_reason = str(error)
+
+    def _speak(self, transport: Transport, real: float, t: float, *, kept: bool) -> None:
+        """Say what is due; while the archive takes nothing, aborts alone."""
+        room = min(transport.room(real), AHEAD - transport.waiting(real))
+        session = self.end.session
+        if kept:
+            out = self.end.poll(t, room)
+        else:
+            services, session.services = session.services, [AbortOnly(self.end.commands)]
+            try:
+                out = session.poll(t, room)
+            finally:
+                session.services = services
+        if out and transport.write(out, real):
+            self.ingest.say(out, t)
+
+    def _keep_clock(self, real: float) -> None:
+        if real - self._clock_at >= CLOCK_EVERY and self.clock.is_set:
+            self._clock_at = real
+            self._write_clock()
+
+    def _write_clock(self) -> None:
+        try:
+            self.clock.keep(self._storage)
+        except OSError as error:
+            self.failure = f"clock: cannot be kept: {error.strerror or error}"
+
+    def _finish(self) -> None:
+        """Store the rest, and give all back."""
+        if self.ingest.frames or self.ingest.samples:
+            self._store_at = 0.0
+            self.archive_reason = ""
+            self._keep(time.monotonic())
+        self._write_clock()
+        if self._transport is not None:
+            self._transport.close()
+        while not self._requests.empty():
+            self._requests.get_nowait()[1].cancel()
+
+    def _complaint(self, t: float) -> str:
+        """Why the vehicle is not heard."""
+        end, transport = self.end, self._transport
+        if transport is None:
+            return self._transport_reason
+        if transport.reason:
+            return f"{transport.name}: {transport.reason}"
+        if told := end.session.line.complaint(t):
+            return told
+        if end.guard.refusals.by_reason:
+            return "; ".join(end.guard.status)
+        others: Sequence[int] = sorted({system for system, _ in list(end.session.peers())} - {self.vehicle})
+        if others and self.ingest.came == 0:
+            return f"heard is {', '.join(f'vehicle {system}' for system in others)}; the number of this one is another"
+        if self.ingest.came:
+            return "nothing comes; it is under water, out of reach, or its radio is off"
+        if end.session.versions:
+            return end.session.versions
+        return "nothing came yet; it is under water, out of reach, or its radio is off"

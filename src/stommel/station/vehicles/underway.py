@@ -1,0 +1,57 @@
+"""What only the course of values tells: when this dive began, and how fast the vehicle comes closer to its waypoint."""
+
+from collections import deque
+from collections.abc import Sequence
+
+from stommel.messages.mavlink import entry_words
+from stommel.station.vehicles.summary import AT_SURFACE, Approach
+
+LEAST_TIME = 120.0
+"""Over which an approach is measured [s]."""
+
+Sample = tuple[str, float, float]
+
+
+class Underway:
+    """Watches samples of one vehicle; times by its clock [s since 1970]."""
+
+    def __init__(self) -> None:
+        self.left_surface: float | None = None
+        """When this dive began; None at the surface, or where that was not seen."""
+        self._afloat: bool | None = None
+        self._waypoint: float | None = None
+        self._begins: deque[tuple[float, float]] = deque(maxlen=2)
+        """When the last dives began, and how far the waypoint was then [m]."""
+        self._distance: tuple[float, float] | None = None
+        self._words = entry_words("GLIDER_PHASE")
+
+    def take(self, samples: Sequence[Sample]) -> None:
+        """Take samples in the order in which they came."""
+        for key, t, value in samples:
+            if key == "phase":
+                self._take_phase(t, value)
+            elif key == "waypoint" and value != self._waypoint:
+                self._waypoint, self._distance = value, None
+                self._begins.clear()
+            elif key == "waypoint_distance_m":
+                self._distance = (t, value)
+                if not self._begins:
+                    self._begins.append(self._distance)
+
+    def _take_phase(self, t: float, value: float) -> None:
+        afloat = self._words.get(int(value), "") in AT_SURFACE
+        if self._afloat and not afloat:
+            self.left_surface = t
+            if self._distance is not None:
+                self._begins.append((t, self._distance[1]))
+        if afloat:
+            self.left_surface = None
+        self._afloat = afloat
+
+    @property
+    def approach(self) -> Approach | None:
+        """How fast the waypoint comes closer since the last dive began; None where too little was seen."""
+        if not self._begins or self._distance is None:
+            return None
+        (began, before), (t, now) = self._begins[0], self._distance
+        return Approach(began, (before - now) / (t - began)) if t - began >= LEAST_TIME else None

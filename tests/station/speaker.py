@@ -1,0 +1,98 @@
+"""A vehicle that says what a test wants, over TCP, and keeps what it hears."""
+
+import socket
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from stommel.link.frames import FrameSplitter, RawFrame, frame_bytes
+from stommel.messages.mavlink import Fields, message_named
+
+WITHIN = 15.0
+"""Longest that a test waits [s]; it is only reached when something is wrong."""
+
+
+def until(done: Callable[[], object], within: float = WITHIN) -> None:
+    """Wait until something is so."""
+    ends = time.monotonic() + within
+    while not done():
+        assert time.monotonic() < ends, "waited in vain"
+        time.sleep(0.01)
+
+
+class Speaker:
+    """Waits for the station to connect, and speaks."""
+
+    def __init__(self, system: int = 1) -> None:
+        self.system, self.sequence = system, 0
+        self._listening = socket.create_server(("127.0.0.1", 0))
+        self._socket: socket.socket | None = None
+        self._splitter = FrameSplitter()
+        self.heard: list[RawFrame] = []
+        self.sent: list[bytes] = []
+
+    @property
+    def address(self) -> str:
+        """As the station wants it."""
+        return f"tcp:127.0.0.1:{self._listening.getsockname()[1]}"
+
+    def connect(self) -> None:
+        """Wait for the station."""
+        self._listening.settimeout(WITHIN)
+        self._socket, _ = self._listening.accept()
+        self._socket.setblocking(False)
+
+    def hang_up(self) -> None:
+        """Lose the connection."""
+        if self._socket is not None:
+            self._socket.close()
+            self._socket = None
+
+    def frame(self, name: str, values: Fields, component: int = 1) -> bytes:
+        """The next frame."""
+        kind = message_named(name)
+        frame = frame_bytes(kind, kind.pack(values), self.system, component, self.sequence % 256)
+        self.sequence += 1
+        return frame
+
+    def say(self, name: str, **values: object) -> None:
+        """Say a message."""
+        frame = self.frame(name, values)  # type: ignore[arg-type]
+        self.sent.append(frame)
+        self.send(frame)
+
+    def send(self, data: bytes) -> None:
+        """Send bytes."""
+        assert self._socket is not None
+        self._socket.setblocking(True)
+        self._socket.sendall(data)
+        self._socket.setblocking(False)
+
+    def listen(self) -> list[RawFrame]:
+        """Everything that was heard until now."""
+        assert self._socket is not None
+        try:
+            while data := self._socket.recv(65_536):
+                self.heard += self._splitter.take(data)
+        except BlockingIOError:
+            pass
+        return self.heard
+
+    def names(self) -> list[str]:
+        """Names of what was heard."""
+        return [frame.message.name for frame in self.listen()]
+
+    def close(self) -> None:
+        """Go."""
+        self.hang_up()
+        self._listening.close()
+
+
+@contextmanager
+def speaker(system: int = 1) -> Iterator[Speaker]:
+    """A vehicle until the block ends."""
+    found = Speaker(system)
+    try:
+        yield found
+    finally:
+        found.close()

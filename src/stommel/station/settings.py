@@ -11,6 +11,7 @@ from stommel.files.ranges import between
 from stommel.files.sentences import PRINTABLE, validated
 from stommel.files.toml_reader import read_toml
 from stommel.link.transports.address import read_address
+from stommel.station.alarms.alert_settings import AlarmSettings, AlertSettings
 from stommel.station.clock import LEAST_SPEED, MOST_SPEED
 
 MOST_VEHICLES = 100
@@ -74,8 +75,12 @@ class StationSettings(_Table):
     certificate: Path | None = None
     key_file: Path | None = None
     behind_proxy: Flag = False
+    address: Annotated[str, Field(max_length=500, pattern=PRINTABLE)] = ""
+    """Of the page as people reach it; stands in alerts."""
     demo: Flag = False
     """Whether the page shows the guided first five minutes."""
+    alarms: AlarmSettings = AlarmSettings()
+    alerts: AlertSettings = AlertSettings()
     vehicles: Annotated[tuple[VehicleSettings, ...], Field(max_length=MOST_VEHICLES)] = ()
 
     @model_validator(mode="after")

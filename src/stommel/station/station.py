@@ -14,8 +14,10 @@ from stommel.station.people.holders import Hold
 from stommel.station.people.people import People
 from stommel.station.settings import StationSettings, VehicleSettings
 from stommel.station.vehicles.attached import VehicleNews
+from stommel.station.vehicles.commands import Commands
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.opening import VehicleError
+from stommel.station.watching import alarms_of, watch
 
 Watcher = Callable[[int, Batch, float], None]
 """Vehicle, what was stored, and the time of the vehicle [s since 1970]; called in the line's thread."""
@@ -46,14 +48,16 @@ class Station:
         """Are told of everything that was stored."""
         self.completers: list[Completer] = []
         """Add to summaries."""
+        self._holders: dict[int, Hold | None] = {}
         self._held = ExitStack()
         self._is_started = False
         try:
             self._lock_folder()
             self.archive = Archive.open(settings.database_url)
             self._held.callback(self.archive.close)
-            self.people = People(self.archive, told=self._commanded_by)
-            self.completers.append(self._add_holder)
+            self.people = People(self.archive, told=self._holder_changed)
+            self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
+            self.commands = Commands(self.archive, self.hub, self.vehicles)
             for vehicle in settings.vehicles:
                 self._attach(vehicle)
         except BaseException:
@@ -63,6 +67,7 @@ class Station:
     def start(self) -> None:
         """Begin to listen to all vehicles."""
         self._is_started = True
+        self.alarms.start()
         for line in self.vehicles.values():
             line.start()
 
@@ -105,26 +110,39 @@ class Station:
         line = VehicleLine(settings, self.settings.folder, self.archive, self._committed)
         self.hub.open(number, line.clock.now, self.archive.latest(number))
         line.followers.append(news)
+        self.commands.follow(line)
         self.vehicles[number], self.news[number] = line, news
+        self._holders[number] = self.people.holders.of(number)
+        watch(self.alarms, line, lambda: self.summary(number))
         return line
 
     def _committed(self, line: VehicleLine, batch: Batch) -> None:
         self.news[line.vehicle].committed(line, batch)
+        if batch.samples:
+            self.alarms.take(line.vehicle, batch.samples)
         for watcher in self.watchers:
             watcher(line.vehicle, batch, line.clock.now())
 
     def _complete(self, vehicle: int, summary: dict[str, Any]) -> None:
+        hold = self._holders.get(vehicle)
+        summary["holder"] = None if hold is None else hold.user
+        known = {alarm["key"] for alarm in summary["alarms"]}
+        summary["alarms"] += [
+            {"key": alarm.key, "words": alarm.words, "severity": alarm.severity}
+            for alarm in self.alarms.open_of(vehicle)
+            if alarm.key not in known
+        ]
         for completer in self.completers:
             completer(vehicle, summary)
 
-    def _add_holder(self, vehicle: int, summary: dict[str, Any]) -> None:
-        hold = self.people.holders.of(vehicle)
-        summary["holder"] = None if hold is None else hold.user
+    def _holder_changed(self, vehicle: int, hold: Hold | None) -> None:
+        self._holders[vehicle] = hold
+        told = {"holder": None} if hold is None else {"holder": hold.user} | hold._asdict()
+        self.hub.publish(Happening("holder", vehicle, told))
 
-    def _commanded_by(self, vehicle: int, hold: Hold | None) -> None:
-        """Show everybody who holds command from now on."""
-        data = {"vehicle": vehicle, "user": None} if hold is None else hold._asdict()
-        self.hub.publish(Happening("holder", vehicle, data))
+    def _title(self, vehicle: int) -> str:
+        line = self.vehicles.get(vehicle)
+        return f"vehicle {vehicle}" if line is None else line.settings.title
 
     def _lock_folder(self) -> None:
         folder = self.settings.folder
@@ -142,4 +160,6 @@ class Station:
         lines: Sequence[VehicleLine] = list(self.vehicles.values())
         for line in lines:
             line.stop()
+        if self._is_started:
+            self.alarms.stop()
         self._held.close()

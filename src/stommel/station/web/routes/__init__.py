@@ -3,6 +3,7 @@
 from fastapi import APIRouter
 
 from stommel.station.web.routes import (
+    commands,
     data,
     people,
     station,
@@ -13,5 +14,6 @@ ROUTERS: tuple[APIRouter, ...] = (
     station.router,
     people.router,
     vehicles.router,
+    commands.router,
     data.router,
 )

@@ -6,6 +6,8 @@ import typer
 from typer.core import TyperGroup
 
 from stommel.cli.station.serve import serve
+from stommel.cli.station.token import token_app
+from stommel.cli.station.user import user_app
 
 SERVE = "serve"
 """The verb that `stommel station --database ...` stands for."""
@@ -27,3 +29,5 @@ station_app = typer.Typer(
     help="The shore station: `stommel station --database ...` is short for `stommel station serve --database ...`.",
 )
 station_app.command(SERVE)(serve)
+station_app.add_typer(user_app, name="user")
+station_app.add_typer(token_app, name="token")

@@ -11,6 +11,7 @@ from stommel.files.ranges import between
 from stommel.files.sentences import PRINTABLE, validated
 from stommel.files.toml_reader import read_toml
 from stommel.link.transports.address import read_address
+from stommel.station.alarms.alert_settings import AlarmSettings, AlertSettings
 from stommel.station.clock import LEAST_SPEED, MOST_SPEED
 
 MOST_VEHICLES = 100
@@ -76,6 +77,8 @@ class StationSettings(_Table):
     behind_proxy: Flag = False
     demo: Flag = False
     """Whether the page shows the guided first five minutes."""
+    alarms: AlarmSettings = AlarmSettings()
+    alerts: AlertSettings = AlertSettings()
     vehicles: Annotated[tuple[VehicleSettings, ...], Field(max_length=MOST_VEHICLES)] = ()
 
     @model_validator(mode="after")
@@ -120,6 +123,13 @@ def _from_file(document: dict[str, Any], folder: Path) -> None:
     for key in ("folder", "certificate", "key_file"):
         if isinstance(document.get(key), str):
             document[key] = folder / document[key]
+    alerts = document.get("alerts")
+    if isinstance(alerts, dict):
+        webhooks = alerts.get("webhooks")
+        for way in (alerts.get("email"), *(webhooks if isinstance(webhooks, list) else ())):
+            for key in ("password_file", "secret_file", "ca_file"):
+                if isinstance(way, dict) and isinstance(way.get(key), str):
+                    way[key] = folder / way[key]
     vehicles = document.get("vehicles")
     for vehicle in vehicles if isinstance(vehicles, list) else ():
         if isinstance(vehicle, dict) and isinstance(vehicle.get("key"), str):

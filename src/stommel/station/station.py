@@ -13,6 +13,7 @@ from stommel.station.settings import StationSettings, VehicleSettings
 from stommel.station.vehicles.attached import VehicleNews
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.opening import VehicleError
+from stommel.station.watching import alarms_of, tell_open, watch_line
 
 Watcher = Callable[[int, Batch, float], None]
 """Vehicle, what was stored, and the time of the vehicle [s since 1970]; called in the line's thread."""
@@ -49,6 +50,10 @@ class Station:
             self._lock_folder()
             self.archive = Archive.open(settings.database_url)
             self._held.callback(self.archive.close)
+            self.alarms = alarms_of(settings, self.archive, self.hub)
+            self._held.callback(self.alarms.stop)
+            self.watchers.append(lambda vehicle, batch, _now: self.alarms.take(vehicle, batch.samples))
+            self.completers.append(lambda vehicle, summary: tell_open(self.alarms, vehicle, summary))
             for vehicle in settings.vehicles:
                 self._attach(vehicle)
         except BaseException:
@@ -58,6 +63,7 @@ class Station:
     def start(self) -> None:
         """Begin to listen to all vehicles."""
         self._is_started = True
+        self.alarms.start()
         for line in self.vehicles.values():
             line.start()
 
@@ -101,6 +107,7 @@ class Station:
         self.hub.open(number, line.clock.now, self.archive.latest(number))
         line.followers.append(news)
         self.vehicles[number], self.news[number] = line, news
+        watch_line(self.alarms, line, lambda: news.summary(line))
         return line
 
     def _committed(self, line: VehicleLine, batch: Batch) -> None:

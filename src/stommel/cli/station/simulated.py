@@ -1,4 +1,4 @@
-"""A simulated glider that flies beside the station, in a process of its own, and is reached over the link like a real one."""
+"""A simulated glider that flies beside the station in a process of its own, reached over the link like a real one."""
 
 import os
 import signal

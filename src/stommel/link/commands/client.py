@@ -80,9 +80,16 @@ class CommandClient:
     # giving
 
     def give(
-        self, name: str, parameters: Mapping[str, float], t: float, *, valid_for: float, when: When = When.UNTIL_EXPIRY
+        self,
+        name: str,
+        parameters: Mapping[str, float],
+        t: float,
+        *,
+        valid_for: float,
+        when: When = When.UNTIL_EXPIRY,
+        id: int | None = None,
     ) -> int:
-        """Give a command, and return its id; it is on the disk.
+        """Give a command, and return its id, which is drawn unless it was drawn before; it is on the disk.
 
         Raises
         ------
@@ -96,11 +103,11 @@ class CommandClient:
         given = max([now, *(entry.command.given + 1 for entry in self._queue.waiting.values() if entry.last is None)])
         given = given if given - now < SET_BACK else now
         expires = now + round(valid_for * 1000.0)
-        id = self._draw.getrandbits(64) or 1
+        id = id or self._draw.getrandbits(64) or 1
         self._queue.add(Waiting(Command(id, kind.number, packed(kind, parameters), when, given, expires)), now)
         return id
 
-    def abort(self, t: float, *, valid_for: float) -> int:
+    def abort(self, t: float, *, valid_for: float, id: int | None = None) -> int:
         """Give an abort, and take back all that is open; return the abort's id.
 
         Raises
@@ -109,7 +116,7 @@ class CommandClient:
             As `give`.
         """
         before = [entry for entry in self._open() if entry.command.number != ABORT]
-        id = self.give("abort", {}, t, valid_for=valid_for)
+        id = self.give("abort", {}, t, valid_for=valid_for, id=id)
         self._take_back(before, t)
         return id
 

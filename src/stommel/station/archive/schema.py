@@ -312,6 +312,18 @@ tokens = Table(
     Column("last_used_us", BigInteger),
 )
 
+holders = Table(
+    "holders",
+    metadata,
+    Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
+    Column("user", String, nullable=False),  # no key of users: "local" is none of them
+    Column("role", String, nullable=False),
+    Column("since_us", BigInteger, nullable=False),
+    Column("taken_from", String),
+    Column("reason", Text),
+)
+"""Who holds command of a vehicle; no row where nobody does."""
+
 audit = Table(
     "audit",
     metadata,

@@ -29,7 +29,12 @@ class Audit:
         self._archive, self._clock = archive, clock
 
     def record(
-        self, action: str, *, user: str | None, address: str | None = None, vehicle: int | None = None,
+        self,
+        action: str,
+        *,
+        user: str | None,
+        address: str | None = None,
+        vehicle: int | None = None,
         detail: Mapping[str, Any] | None = None,
     ) -> None:
         """Add a row; it is on disk when this returns."""  # fmt: skip

@@ -29,9 +29,7 @@ class Hold(NamedTuple):
 class Holders:
     """Holds of all vehicles; `told` hears of each change, with None where nobody holds any longer."""
 
-    def __init__(
-        self, archive: Database, clock: Callable[[], float], told: Callable[[int, Hold | None], None]
-    ) -> None:
+    def __init__(self, archive: Database, clock: Callable[[], float], told: Callable[[int, Hold | None], None]) -> None:
         self._archive, self._clock, self._told = archive, clock, told
 
     def of(self, vehicle: int) -> Hold | None:
@@ -107,8 +105,7 @@ class Holders:
         """Give up all that somebody holds, who may no longer fly."""
         with self._archive.writing() as connection:
             mine = [
-                row.vehicle_id
-                for row in connection.execute(select(holders.c.vehicle_id).where(holders.c.user == name))
+                row.vehicle_id for row in connection.execute(select(holders.c.vehicle_id).where(holders.c.user == name))
             ]
             connection.execute(holders.delete().where(holders.c.user == name))
         for vehicle in mine:

@@ -31,20 +31,33 @@ class People:
 
     def __init__(
         self, archive: Database, *, clock: Callable[[], float] = time.time,
-        told: Callable[[int, Hold | None], None] = lambda vehicle, hold: None,
+        told: Callable[[int, Hold | None], None] | None = None,
     ) -> None:  # fmt: skip
         self.users = Users(archive, clock)
         self.sessions = Sessions(archive, clock)
         self.tokens = Tokens(archive, clock)
         self.audit = Audit(archive, clock)
-        self.holders = Holders(archive, clock, told)
+        self.holders = Holders(archive, clock, told or _nobody_hears)
         self.attempts = Attempts()
         self._one_at_a_time = threading.Lock()
 
     def log_in(self, name: str, password: str, address: str) -> tuple[User, str]:
         """Check a password and begin a session; returns the secret of the session.
 
-        One try at a time: argon2 takes 64 MB and a core, and no try may slip past the count of those before.
+        Raises
+        ------
+        WrongLoginError
+            Name and password do not belong together.
+        TooManyTriesError
+            There were too many wrong ones before.
+        """
+        person = self.confirm(name, password, address)
+        secret = self.sessions.begin(person.name, address)
+        self.audit.record("log in", user=person.name, address=address)
+        return User(person.name, person.role, "session"), secret
+
+    def confirm(self, name: str, password: str, address: str) -> Person:
+        """Check a password, one try at a time: argon2 takes 64 MB, and no try may slip past the count of the others.
 
         Raises
         ------
@@ -58,15 +71,12 @@ class People:
             self.attempts.check(plain, address)
             known = self.users.known(plain)
             right = verified(password, None if known is None else known[1])
-            if known is None or not right or known[0].disabled:
-                self.attempts.failed(plain, address)
-                self.audit.record("log in refused", user=None, address=address, detail={"name": plain})
-                raise WrongLoginError("name and password do not belong together")
-            self.attempts.succeeded(plain, address)
-        person = known[0]
-        secret = self.sessions.begin(person.name, address)
-        self.audit.record("log in", user=person.name, address=address)
-        return User(person.name, person.role, "session"), secret
+            if known is not None and right and not known[0].disabled:
+                self.attempts.succeeded(plain, address)
+                return known[0]
+            self.attempts.failed(plain, address)
+        self.audit.record("log in refused", user=None, address=address, detail={"name": plain})
+        raise WrongLoginError("name and password do not belong together")
 
     def by_token(self, secret: str, address: str) -> User | None:
         """For whom a token speaks; wrong ones count as tries from the address.
@@ -95,3 +105,7 @@ class People:
         """As `Users.remove`; what the person held is free."""
         self.users.remove(name)
         self.holders.leave(spelled(name))
+
+
+def _nobody_hears(_vehicle: int, _hold: Hold | None) -> None:
+    """Where nothing shows who holds command."""

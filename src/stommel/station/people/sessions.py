@@ -1,9 +1,11 @@
 """Sessions of people in a browser: a secret in a cookie, of which the archive keeps a hash."""
 
 from collections.abc import Callable
+from contextlib import suppress
 
 from sqlalchemy import select
 
+from stommel.station.archive.errors import ArchiveError
 from stommel.station.archive.schema import sessions, users
 from stommel.station.people.roles import Role, User
 from stommel.station.people.secrets_kept import fingerprint, new_secret
@@ -35,9 +37,7 @@ class Sessions:
                 .order_by(sessions.c.made_us.desc())
                 .limit(MOST - 1)
             )
-            connection.execute(
-                sessions.delete().where(sessions.c.user == name, sessions.c.id_hash.not_in(newest))
-            )
+            connection.execute(sessions.delete().where(sessions.c.user == name, sessions.c.id_hash.not_in(newest)))
             connection.execute(
                 sessions.insert().values(
                     id_hash=fingerprint(secret), user=name, address=address,
@@ -70,7 +70,7 @@ class Sessions:
         until = min(now + IDLE_S, made + LONGEST_S)
         if until - expires < 3600.0:
             return
-        with self._archive.writing() as connection:
+        with suppress(ArchiveError), self._archive.writing() as connection:  # busy: at the next look
             connection.execute(
                 sessions.update()
                 .where(sessions.c.id_hash == key)

@@ -1,10 +1,12 @@
 """Tokens, by which a script speaks for a person, with the person's role or a lesser one."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import NamedTuple
 
 from sqlalchemy import Row, func, select
 
+from stommel.station.archive.errors import ArchiveError
 from stommel.station.archive.schema import tokens, users
 from stommel.station.people.errors import PeopleError, UnknownPersonError
 from stommel.station.people.names import spelled
@@ -105,10 +107,8 @@ class Tokens:
         if row is None or (row.expires_us is not None and seconds(row.expires_us) <= now):
             return None
         if row.last_used_us is None or now - seconds(row.last_used_us) > _USED_EVERY_S:
-            with self._archive.writing() as connection:
-                connection.execute(
-                    tokens.update().where(tokens.c.id == row.id).values(last_used_us=microseconds(now))
-                )
+            with suppress(ArchiveError), self._archive.writing() as connection:  # busy: at the next look
+                connection.execute(tokens.update().where(tokens.c.id == row.id).values(last_used_us=microseconds(now)))
         return User(row.user, min(Role(row.role), Role(row.own), key=lambda role: role.rank), "token")
 
 

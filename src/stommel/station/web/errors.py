@@ -53,7 +53,12 @@ def detail_of(
 
 
 def refusal(
-    status: int, reason: str, *, key: str | None = None, value: Any = None, allowed: str | None = None,
+    status: int,
+    reason: str,
+    *,
+    key: str | None = None,
+    value: Any = None,
+    allowed: str | None = None,
     headers: dict[str, str] | None = None,
 ) -> HTTPException:
     """Error to raise from a route.
@@ -86,10 +91,11 @@ def status_of(error: StommelError) -> int:
 async def _http(_request: Request, error: Exception) -> JSONResponse:
     if not isinstance(error, AnyHTTPException):
         raise error
-    if isinstance(error.detail, dict) and "reason" in error.detail:
-        body = {"detail": error.detail}
+    told: Any = error.detail
+    if isinstance(told, dict) and "reason" in told:
+        body = {"detail": told}
     else:
-        body = detail_of(_WORDS.get(error.status_code, str(error.detail)))
+        body = detail_of(_WORDS.get(error.status_code, str(told)))
     return JSONResponse(body, error.status_code, headers=error.headers)
 
 

@@ -22,6 +22,7 @@ class SoundBodies:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Look at the body, then pass the request on."""
         headers = Headers(scope=scope) if scope["type"] == "http" else None
         kind = "" if headers is None else headers.get("content-type", "").partition(";")[0].strip().lower()
         if not (kind == "application/json" or kind.endswith("+json")):
@@ -85,7 +86,7 @@ def _printable(content: Any) -> bool:
 
 async def _whole(receive: Receive) -> bytes | None:
     """The body; None if it is too large."""
-    parts, size = [], 0
+    parts, size = list[bytes](), 0
     while True:
         message = await receive()
         if message["type"] != "http.request":

@@ -39,6 +39,8 @@ class StrictHeaders:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass everything on, and add the headers to the answer."""
+        scope.setdefault("state", {})
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return

@@ -19,6 +19,7 @@ class Origins:
         self._app, self._exposure = app, exposure
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass on what may ask."""
         if scope["type"] not in ("http", "websocket"):
             await self._app(scope, receive, send)
             return

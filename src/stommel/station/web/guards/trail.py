@@ -24,6 +24,7 @@ class Trail:
         self._app, self._audit = app, audit
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass everything on, and note what changed something."""
         if scope["type"] != "http" or scope["method"] in HARMLESS:
             await self._app(scope, receive, send)
             return
@@ -48,8 +49,8 @@ class Trail:
         try:
             action = state.get("action") or scope["method"].lower()
             self._audit.record(action, user=user.name, address=address, vehicle=vehicle, detail=detail)
-        except StommelError as error:
-            logging.getLogger("stommel.station").error("not in the audit log: %s %s: %s", user.name, detail, error)
+        except StommelError:
+            logging.getLogger("stommel.station").exception("not in the audit log: %s %s", user.name, detail)
 
 
 def _shown(body: bytes) -> Any:

@@ -1,7 +1,17 @@
-"""The routes of the API, one file a concern; a helper of a concern adds its router to the tuple."""
+"""The routes of the API, one file a concern; a new concern adds its router to the tuple."""
 
 from fastapi import APIRouter
 
-from stommel.station.web.routes import station, vehicles
+from stommel.station.web.routes import (
+    data,
+    people,
+    station,
+    vehicles,
+)
 
-ROUTERS: tuple[APIRouter, ...] = (station.router, vehicles.router)
+ROUTERS: tuple[APIRouter, ...] = (
+    station.router,
+    people.router,
+    vehicles.router,
+    data.router,
+)

@@ -1,23 +1,23 @@
 """The station itself: its name, its clock and who asks."""
 
 import time
-from typing import Annotated, Any
+from typing import Any
 
-from fastapi import APIRouter, Depends, Request
+from fastapi import APIRouter, Request
 from pydantic import BaseModel
 
 from stommel import __version__
-from stommel.station.people.roles import User
-from stommel.station.web.access import Viewer, somebody
+from stommel.station.people.roles import Role
+from stommel.station.web.access import Somebody, Viewer
 
 router = APIRouter(prefix="/api", tags=["station"])
 
 
-class Person(BaseModel):
+class Asking(BaseModel):
     """Who asks."""
 
     name: str
-    role: str
+    role: Role
 
 
 class StationInfo(BaseModel):
@@ -26,22 +26,22 @@ class StationInfo(BaseModel):
     name: str
     version: str
     now: float
-    user: Person | None
+    user: Asking | None
     login_required: bool
     demo: bool
 
 
 @router.get("/station")
-def read_station(request: Request, user: Annotated[User | None, Depends(somebody)]) -> StationInfo:
+def read_station(request: Request, user: Somebody) -> StationInfo:
     """Name, version and time of the station, who asks, and whether people must log in."""
     state = request.app.state
     return StationInfo(
-        name=getattr(state.station.settings, "name", "stommel"),
+        name=state.station.settings.name,
         version=__version__,
         now=time.time(),
-        user=None if user is None else Person(name=user.name, role=user.role),
+        user=None if user is None else Asking(name=user.name, role=user.role),
         login_required=state.exposure.login_required,
-        demo=bool(getattr(state.station.settings, "demo", False)),
+        demo=state.station.settings.demo,
     )
 
 

@@ -1,0 +1,196 @@
+// One plot: options and hooks of uPlot, its colours from the style of the page.
+
+import uPlot from 'uplot';
+
+import { tickWords } from './times';
+import type { Interval } from './window';
+
+export interface Ink {
+  readonly text: string;
+  readonly grid: string;
+  readonly traces: readonly string[];
+  readonly warning: string;
+  readonly font: string;
+}
+
+export interface Limit {
+  readonly low: number | null;
+  readonly high: number | null;
+}
+
+export interface ChartSettings {
+  readonly width: number;
+  readonly height: number;
+  readonly traces: number;
+  readonly isDepth: boolean;
+  readonly syncKey: string;
+  readonly stepped: readonly boolean[];
+  /** What the values mean, where they stand for words. */
+  readonly words: ReadonlyMap<number, string> | null;
+  ink(): Ink;
+  limits(): readonly Limit[];
+  shown(): Interval;
+  onSelect(begin: number, end: number): void;
+  onCursor(t: number | null): void;
+  onDoubleClick(): void;
+}
+
+const AXIS_WIDTH = 58;
+const AXIS_HEIGHT = 34;
+const HEADROOM = 0.06;
+const LIMIT_SHADE = 0.09;
+
+/** The colours of the page as they are now. */
+export function readInk(element: HTMLElement): Ink {
+  const style = getComputedStyle(element);
+  const colour = (name: string): string => style.getPropertyValue(name).trim();
+  return {
+    text: colour('--ink-2'),
+    grid: colour('--grid'),
+    traces: [1, 2, 3, 4, 5, 6, 7, 8].map((number) => colour(`--series-${number}`)),
+    warning: colour('--warning'),
+    font: `11px ${style.fontFamily}`,
+  };
+}
+
+/** A range with headroom that takes a limit in when it is near enough to matter. */
+export function valueRange(low: number | null, high: number | null, limits: readonly Limit[], isDepth: boolean): [number, number] {
+  if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return isDepth ? [0, 10] : [0, 1];
+  const span = high - low || Math.max(Math.abs(high) * 0.02, 1e-6);
+  let bottom = low;
+  let top = high;
+  for (const limit of limits) {
+    if (limit.low !== null && limit.low < low && low - limit.low < span / 2) bottom = Math.min(bottom, limit.low);
+    if (limit.high !== null && limit.high > high && limit.high - high < span / 2) top = Math.max(top, limit.high);
+  }
+  const room = (top - bottom || span) * HEADROOM;
+  if (isDepth && bottom >= -0.5) return [Math.min(0, bottom), Math.max(top + room, 2)];
+  return [bottom - room, top + room];
+}
+
+export function chart(settings: ChartSettings, data: uPlot.AlignedData, place: HTMLElement): uPlot {
+  return new uPlot(options(settings), data, place);
+}
+
+function options(settings: ChartSettings): uPlot.Options {
+  return {
+    width: settings.width,
+    height: settings.height,
+    padding: [8, 10, 0, 0],
+    legend: { show: false },
+    tzDate: (t) => uPlot.tzDate(new Date(t * 1000), 'UTC'),
+    cursor: {
+      drag: { x: true, y: false, setScale: false, dist: 4 },
+      sync: {
+        key: settings.syncKey,
+        setSeries: false,
+        scales: ['x', null],
+        filters: { pub: (type) => type === 'mousemove' || type === 'mouseleave' },
+      },
+      points: { size: 7, width: 1.5 },
+      bind: { dblclick: () => () => { settings.onDoubleClick(); return null; } },
+    },
+    select: { show: true, left: 0, top: 0, width: 0, height: 0 },
+    scales: {
+      x: { time: true, range: () => { const { begin, end } = settings.shown(); return [begin, end]; } },
+      y: {
+        dir: settings.isDepth ? -1 : 1,
+        range: (_plot, low, high) => valueRange(low, high, settings.limits(), settings.isDepth),
+      },
+    },
+    series: [{}, ...Array.from({ length: settings.traces }, (_, index) => series(settings, index))],
+    axes: [timeAxis(settings), valueAxis(settings)],
+    hooks: {
+      drawClear: [(plot) => drawLimits(plot, settings)],
+      setSelect: [(plot) => takeSelection(plot, settings)],
+      setCursor: [(plot) => takeCursor(plot, settings)],
+    },
+  };
+}
+
+function series(settings: ChartSettings, index: number): uPlot.Series {
+  const stepped = settings.stepped[index] ? { paths: uPlot.paths.stepped!({ align: 1 }) } : {};
+  return {
+    stroke: () => settings.ink().traces[index % 8] ?? 'gray',
+    width: 1.5,
+    spanGaps: false,
+    points: { show: (_plot, _series, first, last) => last - first < 40, size: 4 },
+    ...stepped,
+  };
+}
+
+function timeAxis(settings: ChartSettings): uPlot.Axis {
+  return {
+    ...line(settings),
+    size: AXIS_HEIGHT,
+    space: 74,
+    values: (_plot, ticks, _axis, _space, increment) => tickWords(ticks, increment),
+  };
+}
+
+function valueAxis(settings: ChartSettings): uPlot.Axis {
+  const named = settings.words;
+  return {
+    ...line(settings),
+    size: AXIS_WIDTH,
+    space: 30,
+    ...(named ? { incrs: [1, 2, 5, 10], values: (_plot: uPlot, ticks: number[]) => ticks.map((tick) => named.get(tick) ?? '') } : {}),
+  };
+}
+
+function line(settings: ChartSettings): uPlot.Axis {
+  return {
+    stroke: () => settings.ink().text,
+    font: settings.ink().font,
+    gap: 6,
+    grid: { stroke: () => settings.ink().grid, width: 1 },
+    ticks: { stroke: () => settings.ink().grid, width: 1, size: 4 },
+  };
+}
+
+function takeSelection(plot: uPlot, settings: ChartSettings): void {
+  const { left, width } = plot.select;
+  if (width < 4) return;
+  const begin = plot.posToVal(left, 'x');
+  const end = plot.posToVal(left + width, 'x');
+  plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+  settings.onSelect(begin, end);
+}
+
+function takeCursor(plot: uPlot, settings: ChartSettings): void {
+  const left = plot.cursor.left;
+  settings.onCursor(left == null || left < 0 ? null : plot.posToVal(left, 'x'));
+}
+
+/** What lies beyond a limit is shaded, the limit itself is a line. */
+function drawLimits(plot: uPlot, settings: ChartSettings): void {
+  const limits = settings.limits();
+  if (limits.length === 0 || plot.scales['y']?.min == null) return;
+  const { left, top, width, height } = plot.bbox;
+  const context = plot.ctx;
+  const ink = settings.ink();
+  const inside = (y: number): number => Math.min(Math.max(y, top), top + height);
+  context.save();
+  context.fillStyle = ink.warning;
+  context.strokeStyle = ink.warning;
+  context.lineWidth = uPlot.pxRatio;
+  context.setLineDash([4 * uPlot.pxRatio, 3 * uPlot.pxRatio]);
+  for (const limit of limits) {
+    for (const [value, isHigh] of [[limit.low, false], [limit.high, true]] as const) {
+      if (value === null) continue;
+      const y = plot.valToPos(value, 'y', true);
+      const isTowardsTop = isHigh !== settings.isDepth;
+      const edge = inside(y);
+      const far = isTowardsTop ? top : top + height;
+      context.globalAlpha = LIMIT_SHADE;
+      context.fillRect(left, Math.min(edge, far), width, Math.abs(far - edge));
+      context.globalAlpha = 1;
+      if (y < top || y > top + height) continue;
+      context.beginPath();
+      context.moveTo(left, y);
+      context.lineTo(left + width, y);
+      context.stroke();
+    }
+  }
+  context.restore();
+}

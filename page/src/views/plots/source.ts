@@ -1,0 +1,77 @@
+// Where plots get their values from: a vehicle as it is, or a replay of what it did.
+
+import { untrack } from 'svelte';
+
+import { api } from '../../lib/api';
+import { clock } from '../../lib/clock.svelte';
+import { live } from '../../lib/live.svelte';
+import type { Channel, Limit, SeriesAnswer, VehicleKey } from '../../lib/types';
+import type { Traces } from './traces';
+
+export interface Samples {
+  readonly t: readonly number[];
+  readonly value: readonly (number | null)[];
+}
+
+export interface LiveListener {
+  onSamples(samples: ReadonlyMap<string, Samples>): void;
+  /** Something was missed: the archive has to be asked again. */
+  onGap(): void;
+  onRefusal(reason: string): void;
+}
+
+export interface PlotSource {
+  /** Tells two sources apart. */
+  readonly key: string;
+  /** The present of the source, UTC seconds. */
+  now(): number;
+  series(channels: readonly string[], begin: number, end: number, points: number, signal: AbortSignal): Promise<Traces>;
+  follow(channels: readonly string[], listener: LiveListener): () => void;
+  limit(channel: string): Limit | null;
+  period_s(channel: string): number | null;
+}
+
+/** The station: the archive of a vehicle, and the live socket of it or of a replay of it. */
+export class StationSource implements PlotSource {
+  readonly key: string;
+
+  constructor(
+    readonly vehicle: number,
+    readonly liveKey: VehicleKey,
+    readonly channels: ReadonlyMap<string, Channel>,
+    readonly limits: ReadonlyMap<string, Limit>,
+  ) {
+    this.key = String(liveKey);
+  }
+
+  now(): number {
+    return untrack(() => clock.now(this.liveKey)) ?? 0;
+  }
+
+  async series(
+    channels: readonly string[], begin: number, end: number, points: number, signal: AbortSignal,
+  ): Promise<Traces> {
+    const query = { channels: channels.join(','), begin, end, points, method: 'minmax' };
+    const answer = await api.get<SeriesAnswer>(`/vehicles/${this.vehicle}/series`, query, signal);
+    return new Map(Object.entries(answer.channels));
+  }
+
+  follow(channels: readonly string[], listener: LiveListener): () => void {
+    const heard = {
+      samples: (samples: Record<string, [number[], number[]]>): void => {
+        listener.onSamples(new Map(Object.entries(samples).map(([key, [t, value]]) => [key, { t, value }])));
+      },
+      gap: (): void => listener.onGap(),
+      error: (reason: string): void => listener.onRefusal(reason),
+    };
+    return live.subscribe(this.liveKey, [...channels], heard, true);
+  }
+
+  limit(channel: string): Limit | null {
+    return this.limits.get(channel) ?? null;
+  }
+
+  period_s(channel: string): number | null {
+    return this.channels.get(channel)?.period_s ?? null;
+  }
+}

@@ -1,0 +1,260 @@
+"""What was sampled: dives, profiles, sections, temperature against salinity, and files of it."""
+
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+import xarray as xr
+from fastapi import APIRouter, Depends, Query, Request
+from fastapi import Path as PathValue
+from fastapi.responses import FileResponse, StreamingResponse
+from numpy.typing import NDArray
+from pydantic import BaseModel
+from sqlalchemy import select
+from starlette.background import BackgroundTask
+
+from stommel.data.files import csv_lines, write_netcdf
+from stommel.data.gridding import section
+from stommel.data.summaries import ProfileSummary, profile_summaries
+from stommel.data.variables import BY_NAME
+from stommel.data.water_masses import density_lines
+from stommel.station.archive import schema
+from stommel.station.products.record import SampleRecords
+from stommel.station.products.samples import LATEST, trajectory
+from stommel.station.web.access import Viewer
+from stommel.station.web.errors import refusal
+from stommel.station.web.found import Line, TheStation
+
+router = APIRouter(prefix="/api", tags=["data"])
+
+MOST_POINTS = 20_000
+"""Of a T-S diagram; of more every second, third ... is shown."""
+Sampled = Literal[
+    "temperature", "conductivity", "practical_salinity", "absolute_salinity", "conservative_temperature", "density",
+    "potential_density_anomaly", "sound_speed",
+]  # fmt: skip
+Begin = Annotated[float, Query(ge=0, le=LATEST, description="From when on [s since 1970].")]
+End = Annotated[float, Query(ge=0, le=LATEST, description="Until when [s since 1970].")]
+
+
+def _records(request: Request, station: TheStation) -> SampleRecords:
+    """Kept with the application: what was read stays read."""
+    state = request.app.state
+    if not hasattr(state, "sample_records"):
+        state.sample_records = SampleRecords(station.archive)
+    records: SampleRecords = state.sample_records
+    return records
+
+
+Records = Annotated[SampleRecords, Depends(_records)]
+
+
+class Dive(BaseModel):
+    """A dive as the vehicle told it, and what follows."""
+
+    dive: int
+    t_begin: float
+    t_end: float | None
+    latitude_begin: float | None
+    longitude_begin: float | None
+    latitude_end: float | None
+    longitude_end: float | None
+    greatest_depth_m: float | None
+    current_north_m_s: float | None
+    current_east_m_s: float | None
+    energy_j: float | None
+
+
+class Profile(BaseModel):
+    """A profile: its line in the list, and its samples."""
+
+    about: dict[str, Any]
+    units: dict[str, str]
+    values: dict[str, list[float | None]]
+    """By variable, `depth` and `time` [s since 1970] among them."""
+
+
+class Section(BaseModel):
+    """A variable in cells of depth, a column for each profile."""
+
+    variable: str
+    words: str
+    unit: str
+    cell_m: float
+    depth_m: list[float]
+    """Middles of the cells."""
+    profiles: list[dict[str, Any]]
+    """Number, direction, mean time, place."""
+    values: list[list[float | None]]
+    """By profile, then depth."""
+
+
+class DensityLineModel(BaseModel):
+    """A line of equal potential density anomaly."""
+
+    level: float
+    absolute_salinity: list[float]
+    conservative_temperature: list[float]
+
+
+class Diagram(BaseModel):
+    """Conservative Temperature against Absolute Salinity."""
+
+    samples: int
+    """In range; of many only some are given."""
+    absolute_salinity: list[float]
+    conservative_temperature: list[float]
+    depth_m: list[float]
+    t: list[float]
+    profile: list[int]
+    lines: list[DensityLineModel]
+
+
+@router.get("/vehicles/{vehicle}/dives")
+def read_dives(line: Line, station: TheStation, _user: Viewer, begin: Begin = 0.0, end: End = LATEST) -> list[Dive]:
+    """Dives that began between two times."""
+    d = schema.dives.c
+    with station.archive.reading() as connection:
+        rows = connection.execute(
+            select(schema.dives)
+            .where((d.vehicle_id == line.vehicle) & (d.t_begin_us >= begin * 1e6) & (d.t_begin_us <= end * 1e6))
+            .order_by(d.t_begin_us)
+        ).mappings()
+        return [_dive(dict(row)) for row in rows]
+
+
+@router.get("/vehicles/{vehicle}/profiles")
+def read_profiles(
+    line: Line, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
+) -> list[ProfileSummary]:
+    """Profiles that have samples between two times; each keeps its number."""
+    return [found for found in profile_summaries(records.of(line.vehicle)) if found.end >= begin and found.begin <= end]
+
+
+@router.get("/vehicles/{vehicle}/profiles/{number}")
+def read_profile(
+    line: Line, records: Records, _user: Viewer, number: Annotated[int, PathValue(ge=1, le=1_000_000)]
+) -> Profile:
+    """Samples of one profile."""
+    samples = records.of(line.vehicle)
+    samples = samples.isel(obs=np.flatnonzero(samples["profile_number"].values == number))
+    if not samples.sizes["obs"]:
+        raise refusal(404, f"there is no profile {number}", key="number", value=number)
+    names = [str(name) for name in samples.data_vars if name in BY_NAME]
+    return Profile(
+        about=profile_summaries(samples)[0]._asdict(),
+        units={name: BY_NAME[name].units for name in names},
+        values={name: _plain(samples[name].values) for name in [*names, "time"]},
+    )
+
+
+@router.get("/vehicles/{vehicle}/section")
+def read_section(
+    line: Line,
+    records: Records,
+    _user: Viewer,
+    variable: Sampled = "conservative_temperature",
+    begin: Begin = 0.0,
+    end: End = LATEST,
+    cell_m: Annotated[float, Query(ge=0.1, le=100.0, description="Height of a cell [m].")] = 1.0,
+) -> Section:
+    """A variable in cells of depth by profile: means of the samples in each cell."""
+    try:
+        made = section(records.between(line.vehicle, begin, end), variable, cell_m=cell_m)
+    except ValueError as error:
+        raise refusal(422, str(error), key="cell_m", value=cell_m) from None
+    columns = {str(name): _plain(made[name].values) for name in made.data_vars if made[name].dims == ("profile",)}
+    return Section(
+        variable=variable,
+        words=BY_NAME[variable].long_name,
+        unit=BY_NAME[variable].units,
+        cell_m=cell_m,
+        depth_m=made["depth"].values.tolist(),
+        profiles=[dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)],
+        values=[_plain(row) for row in made[variable].values],
+    )
+
+
+@router.get("/vehicles/{vehicle}/ts")
+def read_water_masses(line: Line, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST) -> Diagram:
+    """Conservative Temperature against Absolute Salinity, with lines of equal potential density."""
+    samples = records.between(line.vehicle, begin, end)
+    names = ("absolute_salinity", "conservative_temperature", "depth", "time", "profile_number")
+    columns = [samples[name].values for name in names]
+    good = np.isfinite(columns[0]) & np.isfinite(columns[1])
+    stride = max(1, -(-int(good.sum()) // MOST_POINTS))
+    S, T, depth, t, profile = (column[good][::stride] for column in columns)
+    lines = density_lines(_margin(S), _margin(T)) if S.size else ()
+    return Diagram(
+        samples=int(good.sum()),
+        absolute_salinity=S.tolist(),
+        conservative_temperature=T.tolist(),
+        depth_m=np.nan_to_num(depth).tolist(),
+        t=t.tolist(),
+        profile=profile.tolist(),
+        lines=[
+            DensityLineModel(
+                level=found.level,
+                absolute_salinity=found.absolute_salinity.tolist(),
+                conservative_temperature=found.conservative_temperature.tolist(),
+            )
+            for found in lines
+        ],
+    )
+
+
+@router.get("/vehicles/{vehicle}/data.csv", response_class=StreamingResponse)
+def download_csv(
+    line: Line, station: TheStation, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
+) -> StreamingResponse:
+    """Samples between two times with everything derived, as CSV with the units in its head."""
+    made = trajectory(station.archive, line.vehicle, records.between(line.vehicle, begin, end))
+    return StreamingResponse(_utf8(made), media_type="text/csv", headers=_attachment(line.vehicle, "csv"))
+
+
+@router.get("/vehicles/{vehicle}/data.nc", response_class=FileResponse)
+def download_netcdf(
+    line: Line, station: TheStation, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
+) -> FileResponse:
+    """Samples between two times with everything derived, as CF NetCDF."""
+    made = trajectory(station.archive, line.vehicle, records.between(line.vehicle, begin, end))
+    folder = tempfile.TemporaryDirectory(prefix="stommel-")
+    path = Path(folder.name) / "data.nc"
+    write_netcdf(made, path)
+    return FileResponse(
+        path,
+        media_type="application/x-netcdf",
+        headers=_attachment(line.vehicle, "nc"),
+        background=BackgroundTask(folder.cleanup),
+    )
+
+
+def _attachment(vehicle: int, ending: str) -> dict[str, str]:
+    return {"Content-Disposition": f'attachment; filename="vehicle-{vehicle}.{ending}"'}
+
+
+def _utf8(made: xr.Dataset) -> Iterator[bytes]:
+    for text in csv_lines(made):
+        yield text.encode()
+
+
+def _dive(row: dict[str, Any]) -> Dive:
+    end = row.pop("t_end_us")
+    return Dive(t_begin=row.pop("t_begin_us") * 1e-6, t_end=None if end is None else end * 1e-6, **row)
+
+
+def _margin(values: NDArray[np.float64]) -> tuple[float, float]:
+    """Range of values and a little beyond."""
+    low, high = float(values.min()), float(values.max())
+    margin = max(0.05 * (high - low), 0.05)
+    return max(low - margin, 0.0) if low >= 0.0 else low - margin, high + margin
+
+
+def _plain(values: NDArray[Any]) -> list[Any]:
+    """Values as JSON has them: what is no number is null."""
+    if values.dtype.kind != "f":
+        found: list[Any] = values.tolist()
+        return found
+    return [None if value != value else value for value in values.tolist()]  # noqa: PLR0124

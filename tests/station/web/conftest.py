@@ -1,0 +1,59 @@
+"""A station of the web door's own tests: on loopback, and one where people log in."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+import pytest
+
+from stommel.station.people.roles import Role
+from stommel.station.web.app import create_app
+from stommel.station.web.exposure import Exposure
+from tests.support.station_served import PASSWORD, StandInStation, logged_in, served
+
+
+@pytest.fixture
+def station(tmp_path: Path) -> Iterator[StandInStation]:
+    station = StandInStation(tmp_path)
+    yield station
+    station.close()
+
+
+@pytest.fixture
+def local(station: StandInStation) -> Iterator[httpx.Client]:
+    """At the station's own machine: nobody logs in."""
+    with served(create_app(station)) as address, httpx.Client(base_url=address) as client:
+        yield client
+
+
+@pytest.fixture
+def address(station: StandInStation) -> Iterator[str]:
+    """Where people log in: vera views, paul and pia fly, ada looks after the station."""
+    for name, role in (("vera", Role.VIEWER), ("paul", Role.PILOT), ("pia", Role.PILOT), ("ada", Role.ADMIN)):
+        station.people.users.add(name, PASSWORD, role)
+    with served(create_app(station, Exposure(login=True))) as address:
+        yield address
+
+
+@pytest.fixture
+def vera(address: str) -> Iterator[httpx.Client]:
+    with logged_in(address, "vera") as client:
+        yield client
+
+
+@pytest.fixture
+def paul(address: str) -> Iterator[httpx.Client]:
+    with logged_in(address, "paul") as client:
+        yield client
+
+
+@pytest.fixture
+def pia(address: str) -> Iterator[httpx.Client]:
+    with logged_in(address, "pia") as client:
+        yield client
+
+
+@pytest.fixture
+def ada(address: str) -> Iterator[httpx.Client]:
+    with logged_in(address, "ada") as client:
+        yield client

@@ -9,7 +9,7 @@ from stommel.station.alarms.contact_watch import Contact
 from stommel.station.alarms.defaults import default_limits
 from stommel.station.alarms.limits import ChannelWords
 from stommel.station.alarms.severity import RANK
-from stommel.station.alarms.station_alarms import StationAlarms
+from stommel.station.alarms.station_alarms import ARCHIVE_FAILING, StationAlarms
 from stommel.station.archive import Archive
 from stommel.station.channels import channel_named
 from stommel.station.live.events import Happening
@@ -48,8 +48,13 @@ def watch_line(alarms: StationAlarms, line: VehicleLine, summary: Callable[[], M
     ArchiveError
         The archive fails.
     """
-    defaults = default_limits(_vehicle_named(line.settings.model))
-    alarms.watch(line.vehicle, line.clock.now, lambda: contact_of(summary()) if line.clock.is_set else None, defaults)
+
+
+    def contact() -> Contact | None:
+        alarms.report(ARCHIVE_FAILING, f"vehicle {line.vehicle}", line.status().archive)
+        return contact_of(summary()) if line.clock.is_set else None
+
+    alarms.watch(line.vehicle, line.clock.now, contact, default_limits(_vehicle_named(line.settings.model)))
 
 
 def contact_of(summary: Mapping[str, Any]) -> Contact:

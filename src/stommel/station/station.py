@@ -8,7 +8,10 @@ from typing import Any
 from stommel.files.folder_lock import FolderInUseError, locked
 from stommel.link.transports.address import read_address
 from stommel.station.archive import Archive, Batch
+from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
+from stommel.station.people.holders import Hold
+from stommel.station.people.people import People
 from stommel.station.settings import StationSettings, VehicleSettings
 from stommel.station.vehicles.attached import VehicleNews
 from stommel.station.vehicles.line import VehicleLine
@@ -54,6 +57,8 @@ class Station:
             self._held.callback(self.alarms.stop)
             self.watchers.append(lambda vehicle, batch, _now: self.alarms.take(vehicle, batch.samples))
             self.completers.append(lambda vehicle, summary: tell_open(self.alarms, vehicle, summary))
+            self.people = People(self.archive, told=self._commanded_by)
+            self.completers.append(self._add_holder)
             for vehicle in settings.vehicles:
                 self._attach(vehicle)
         except BaseException:
@@ -118,6 +123,15 @@ class Station:
     def _complete(self, vehicle: int, summary: dict[str, Any]) -> None:
         for completer in self.completers:
             completer(vehicle, summary)
+
+    def _add_holder(self, vehicle: int, summary: dict[str, Any]) -> None:
+        hold = self.people.holders.of(vehicle)
+        summary["holder"] = None if hold is None else hold.user
+
+    def _commanded_by(self, vehicle: int, hold: Hold | None) -> None:
+        """Show everybody who holds command from now on."""
+        data = {"vehicle": vehicle, "user": None} if hold is None else hold._asdict()
+        self.hub.publish(Happening("holder", vehicle, data))
 
     def _lock_folder(self) -> None:
         folder = self.settings.folder

@@ -71,7 +71,7 @@ def api_routes() -> list[APIRoute]:
 
 def _require_role(route: APIRoute) -> None:
     """Refuse a route that somebody forgot to close."""
-    asked = {(method, route.path) for method in route.methods}
+    asked = {(method, route.path) for method in route.methods or ()}
     if least_role(route) == "public" and not asked <= PUBLIC:
         raise ValueError(f"{sorted(asked)} names no role that may use it; see web/access.py")
 

@@ -49,7 +49,6 @@ def watch_line(alarms: StationAlarms, line: VehicleLine, summary: Callable[[], M
         The archive fails.
     """
 
-
     def contact() -> Contact | None:
         alarms.report(ARCHIVE_FAILING, f"vehicle {line.vehicle}", line.status().archive)
         return contact_of(summary()) if line.clock.is_set else None

@@ -14,6 +14,10 @@ from stommel.station.archive.times import microseconds, seconds
 class AlarmError(StommelError):
     """An alarm that is not there, or that somebody has acknowledged already."""
 
+    def __init__(self, words: str, *, is_known: bool) -> None:
+        super().__init__(words)
+        self.is_known = is_known
+
 
 class History:
     """The table of alarms."""
@@ -102,9 +106,9 @@ class History:
             ).rowcount
             row = connection.execute(select(table).where(table.c.id == number)).one_or_none()
         if row is None:
-            raise AlarmError(f"alarm {number}: there is none of that number")
+            raise AlarmError(f"alarm {number}: there is none of that number", is_known=False)
         if not done:
-            raise AlarmError(f"alarm {number}: {row.acknowledged_by} has acknowledged it already")
+            raise AlarmError(f"alarm {number}: {row.acknowledged_by} has acknowledged it already", is_known=True)
         return _alarm(row)
 
     def alarm(self, number: int) -> Alarm | None:

@@ -3,7 +3,9 @@
 from fastapi import APIRouter
 
 from stommel.station.web.routes import (
+    alarms,
     data,
+    notes,
     people,
     station,
     vehicles,
@@ -14,4 +16,6 @@ ROUTERS: tuple[APIRouter, ...] = (
     people.router,
     vehicles.router,
     data.router,
+    alarms.router,
+    notes.router,
 )

@@ -14,6 +14,7 @@ export default ts.config(
       '@typescript-eslint/no-explicit-any': 'error',
       'svelte/no-at-html-tags': 'error',
       'svelte/prefer-svelte-reactivity': 'off', // plain maps and sets that nothing on the screen depends on
+      'svelte/no-unused-svelte-ignore': 'off', // it does not know the warnings of roles that are computed
     },
   },
 );

@@ -75,6 +75,8 @@ class StationSettings(_Table):
     certificate: Path | None = None
     key_file: Path | None = None
     behind_proxy: Flag = False
+    address: Annotated[str, Field(max_length=500, pattern=PRINTABLE)] = ""
+    """Of the page as people reach it; stands in alerts."""
     demo: Flag = False
     """Whether the page shows the guided first five minutes."""
     alarms: AlarmSettings = AlarmSettings()

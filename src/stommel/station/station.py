@@ -14,9 +14,10 @@ from stommel.station.people.holders import Hold
 from stommel.station.people.people import People
 from stommel.station.settings import StationSettings, VehicleSettings
 from stommel.station.vehicles.attached import VehicleNews
+from stommel.station.vehicles.commands import Commands
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.opening import VehicleError
-from stommel.station.watching import alarms_of, tell_open, watch_line
+from stommel.station.watching import alarms_of, open_alarms, watch
 
 Watcher = Callable[[int, Batch, float], None]
 """Vehicle, what was stored, and the time of the vehicle [s since 1970]; called in the line's thread."""
@@ -47,18 +48,16 @@ class Station:
         """Are told of everything that was stored."""
         self.completers: list[Completer] = []
         """Add to summaries."""
+        self._holders: dict[int, Hold | None] = {}
         self._held = ExitStack()
         self._is_started = False
         try:
             self._lock_folder()
             self.archive = Archive.open(settings.database_url)
             self._held.callback(self.archive.close)
-            self.alarms = alarms_of(settings, self.archive, self.hub)
-            self._held.callback(self.alarms.stop)
-            self.watchers.append(lambda vehicle, batch, _now: self.alarms.take(vehicle, batch.samples))
-            self.completers.append(lambda vehicle, summary: tell_open(self.alarms, vehicle, summary))
-            self.people = People(self.archive, told=self._commanded_by)
-            self.completers.append(self._add_holder)
+            self.people = People(self.archive, told=self._holder_changed)
+            self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
+            self.commands = Commands(self.archive, self.hub, self.vehicles)
             for vehicle in settings.vehicles:
                 self._attach(vehicle)
         except BaseException:
@@ -111,27 +110,34 @@ class Station:
         line = VehicleLine(settings, self.settings.folder, self.archive, self._committed)
         self.hub.open(number, line.clock.now, self.archive.latest(number))
         line.followers.append(news)
+        self.commands.follow(line)
         self.vehicles[number], self.news[number] = line, news
-        watch_line(self.alarms, line, lambda: news.summary(line))
+        self._holders[number] = self.people.holders.of(number)
+        watch(self.alarms, line, lambda: self.summary(number))
         return line
 
     def _committed(self, line: VehicleLine, batch: Batch) -> None:
         self.news[line.vehicle].committed(line, batch)
+        if batch.samples:
+            self.alarms.take(line.vehicle, batch.samples)
         for watcher in self.watchers:
             watcher(line.vehicle, batch, line.clock.now())
 
     def _complete(self, vehicle: int, summary: dict[str, Any]) -> None:
+        hold = self._holders.get(vehicle)
+        summary["holder"] = None if hold is None else hold.user
+        summary["alarms"] = open_alarms(self.alarms, vehicle)
         for completer in self.completers:
             completer(vehicle, summary)
 
-    def _add_holder(self, vehicle: int, summary: dict[str, Any]) -> None:
-        hold = self.people.holders.of(vehicle)
-        summary["holder"] = None if hold is None else hold.user
+    def _holder_changed(self, vehicle: int, hold: Hold | None) -> None:
+        self._holders[vehicle] = hold
+        told = {"vehicle": vehicle, "user": None} if hold is None else hold._asdict()
+        self.hub.publish(Happening("holder", vehicle, told))
 
-    def _commanded_by(self, vehicle: int, hold: Hold | None) -> None:
-        """Show everybody who holds command from now on."""
-        data = {"vehicle": vehicle, "user": None} if hold is None else hold._asdict()
-        self.hub.publish(Happening("holder", vehicle, data))
+    def _title(self, vehicle: int) -> str:
+        line = self.vehicles.get(vehicle)
+        return f"vehicle {vehicle}" if line is None else line.settings.title
 
     def _lock_folder(self) -> None:
         folder = self.settings.folder
@@ -149,4 +155,6 @@ class Station:
         lines: Sequence[VehicleLine] = list(self.vehicles.values())
         for line in lines:
             line.stop()
+        if self._is_started:
+            self.alarms.stop()
         self._held.close()

@@ -1,4 +1,4 @@
-"""The alarms of a station over its vehicles: what they are told, and what summaries say of them."""
+"""How the alarms of a station come to know what its vehicles bring."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -20,28 +20,17 @@ from stommel.station.vehicles.summary import AT_SURFACE
 from stommel.vehicle import Vehicle, load_vehicle
 
 
-def alarms_of(settings: StationSettings, archive: Archive, hub: Hub) -> StationAlarms:
-    """Return the alarms of a station, which watch nothing yet."""
-    titles = {vehicle.vehicle: vehicle.title for vehicle in settings.vehicles}
-    sender = Sender(settings.name, lambda number: titles.get(number, f"vehicle {number}"), settings.alerts.page or "")
+def alarms_of(settings: StationSettings, archive: Archive, hub: Hub, title: Callable[[int], str]) -> StationAlarms:
+    """Make the alarms of a station."""
+    address = settings.address or f"http://{settings.host}:{settings.port}"
     return StationAlarms(
-        archive,
-        channel_words,
-        lambda kind, vehicle, row: hub.publish(Happening(kind, vehicle, row)),
-        sender,
-        settings.alarms,
-        settings.alerts,
-    )
+        archive, _words, lambda kind, vehicle, row: hub.publish(Happening(kind, vehicle, row)),
+        Sender(settings.name, title, address), settings.alarms, settings.alerts,
+    )  # fmt: skip
 
 
-def channel_words(key: str) -> ChannelWords:
-    """What people call a channel."""
-    channel = channel_named(key)
-    return ChannelWords(key, "") if channel is None else ChannelWords(channel.words, channel.unit)
-
-
-def watch_line(alarms: StationAlarms, line: VehicleLine, summary: Callable[[], Mapping[str, Any]]) -> None:
-    """Watch the vehicle of a line, with the limits of its file until somebody sets others.
+def watch(alarms: StationAlarms, line: VehicleLine, summary: Callable[[], dict[str, Any]]) -> None:
+    """Let the alarms watch a vehicle, with the limits of its file until somebody sets others.
 
     Raises
     ------
@@ -53,29 +42,34 @@ def watch_line(alarms: StationAlarms, line: VehicleLine, summary: Callable[[], M
         alarms.report(ARCHIVE_FAILING, f"vehicle {line.vehicle}", line.status().archive)
         return contact_of(summary()) if line.clock.is_set else None
 
-    alarms.watch(line.vehicle, line.clock.now, contact, default_limits(_vehicle_named(line.settings.model)))
+    alarms.watch(line.vehicle, line.clock.now, contact, default_limits(file_of(line.settings.model)))
 
 
 def contact_of(summary: Mapping[str, Any]) -> Contact:
     """When a vehicle was heard, and when it shall be heard next, from its summary."""
-    expected = summary["next_surfacing"]
-    phase = summary["phase"]
+    expected, phase = summary["next_surfacing"], summary["phase"]
     return Contact(
-        summary["last_contact"],
-        None if expected is None else expected["t"],
-        phase is not None and phase not in AT_SURFACE,
-        summary["link_reason"],
+        heard=summary["last_contact"],
+        expected=None if expected is None else expected["t"],
+        is_diving=phase is not None and phase not in AT_SURFACE,
+        trouble=summary["link_reason"],
     )
 
 
-def tell_open(alarms: StationAlarms, vehicle: int, summary: dict[str, Any]) -> None:
-    """Put the open alarms of a vehicle into its summary, the worst first."""
+def open_alarms(alarms: StationAlarms, vehicle: int) -> list[dict[str, str]]:
+    """Open alarms of a vehicle as its summary tells them, the worst first."""
     found = sorted(alarms.open_of(vehicle), key=lambda alarm: -RANK[alarm.severity])
-    summary["alarms"] = [{"key": alarm.key, "words": alarm.words, "severity": alarm.severity} for alarm in found]
+    return [{"key": alarm.key, "words": alarm.words, "severity": alarm.severity} for alarm in found]
 
 
-def _vehicle_named(model: str) -> Vehicle | None:
+def file_of(model: str) -> Vehicle | None:
+    """The vehicle file of a vehicle; None where there is none."""
     try:
         return load_vehicle(model)
     except StommelError:
         return None
+
+
+def _words(key: str) -> ChannelWords:
+    channel = channel_named(key)
+    return ChannelWords(key, "") if channel is None else ChannelWords(channel.words, channel.unit)

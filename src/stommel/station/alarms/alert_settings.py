@@ -92,8 +92,6 @@ class AlertSettings(_Table):
     """For how long after an alert the same alarm is only counted."""
     cleared: bool = True
     """Whether the end of an alarm is told as well."""
-    page: WebAddress | None = None
-    """Address of the station's page as people reach it from where they are; alerts name it."""
     email: EmailSettings | None = None
     webhooks: Annotated[tuple[WebhookSettings, ...], Field(max_length=20)] = ()
 

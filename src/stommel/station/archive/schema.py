@@ -163,6 +163,7 @@ commands = Table(
     Column("expires_us", BigInteger, nullable=False),
     Column("name", String, nullable=False),
     Column("parameters", JSON, nullable=False),
+    Column("occasion", String, nullable=False),  # when it may be executed: at_once, at_next_surfacing, until_expiry
     Column("state", String, nullable=False),
     Column("outcome", Text),
     Column("changed_us", BigInteger, nullable=False),

@@ -60,7 +60,8 @@ def problems_of(error: ValidationError | StommelError, origin: str = "") -> list
         return list(error.problems)
     if isinstance(error, FileError):
         return [problem(each.key, each.message) for each in error.problems]
-    return [problem("", line.removeprefix(f"{origin}: ")) for line in str(error).splitlines()]
+    lines = str(error).replace("ballasting.neutral_depth_m", "neutral_density_kg_m3").splitlines()
+    return [problem("", line.removeprefix(f"{origin}: ")) for line in lines]
 
 
 def plan_from(document: Any) -> StationPlan:

@@ -17,7 +17,9 @@ from stommel.vehicle import Vehicle, load_vehicle
 
 ORIGIN = "plan"
 """How sentences name it."""
-_ROWS = 200_000
+_SAMPLES_EVERY = 600.0
+"""[s]"""
+_ROWS = 100_000
 """Of a preview's record, about; a longer mission is written down less often."""
 
 
@@ -41,6 +43,8 @@ def _scenario(plan: StationPlan) -> dict[str, Any]:
     """Values of a mission file; what does not matter to a preview, as the errors of sensors, is left as it is."""
     told = plan.model_dump(include=set(Plan.model_fields), exclude_none=True)
     start = datetime.now(UTC) if plan.start_time is None else plan.start_time
+    # how often the CTD measures is the acquisition node's affair, and would only fill the memory here
+    told["sampling"] = told["sampling"] | {"every_s": _SAMPLES_EVERY}
     return told | {
         "vehicle": plan.vehicle,
         "start": plan.start.model_dump(),

@@ -21,6 +21,7 @@ from stommel.station.people.errors import (
     UnknownPersonError,
     WrongLoginError,
 )
+from stommel.station.vehicles.opening import MissingError, VehicleError
 
 MOST_PROBLEMS = 20
 _LONGEST = 600
@@ -37,6 +38,8 @@ STATUS: tuple[tuple[type[StommelError], int], ...] = (
     (UnknownPersonError, 404),
     (HeldError, 409),
     (PeopleError, 422),
+    (MissingError, 404),
+    (VehicleError, 503),
     (ArchiveRequestError, 422),
     (ArchiveError, 503),
     (StommelError, 422),

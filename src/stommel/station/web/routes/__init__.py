@@ -4,6 +4,7 @@ from fastapi import APIRouter
 
 from stommel.station.web.routes import (
     alarms,
+    commands,
     data,
     notes,
     people,
@@ -15,6 +16,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     station.router,
     people.router,
     vehicles.router,
+    commands.router,
     data.router,
     alarms.router,
     notes.router,

@@ -1,0 +1,180 @@
+"""Commands as people give them: on the disk with who and when before they are queued, followed to the last word."""
+
+import secrets
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future
+from concurrent.futures import TimeoutError as TooLate
+from typing import Any
+
+from stommel.link.commands.client import LEAST_VALID, MOST_VALID
+from stommel.link.commands.states import When
+from stommel.link.commands.table import CommandError, command_named, packed
+from stommel.link.shore.shore_end import ShoreEnd
+from stommel.station.archive import Archive
+from stommel.station.live.events import Happening
+from stommel.station.live.hub import Hub
+from stommel.station.vehicles.command_follower import CommandFollower
+from stommel.station.vehicles.command_rows import GIVEN, NOT_SENT, CommandRow, CommandRows
+from stommel.station.vehicles.line import VehicleLine
+from stommel.station.vehicles.opening import MissingError, VehicleError
+
+ANSWER_WITHIN = 5.0
+"""Time for the line's thread to take a command [s]."""
+ABORT_VALID = 86_400.0
+"""How long an abort is tried [s of the vehicle]."""
+_NOT_QUEUED = "the line did not take it; it was not sent"
+
+
+class Commands:
+    """Gives commands to the vehicles of a station.
+
+    Parameters
+    ----------
+    archive, hub
+        Of the station.
+    lines
+        By vehicle; those that come later too.
+    """
+
+    def __init__(self, archive: Archive, hub: Hub, lines: Mapping[int, VehicleLine]) -> None:
+        self._rows, self._hub, self._lines = CommandRows(archive), hub, lines
+        self._followers: dict[int, CommandFollower] = {}
+
+    def follow(self, line: VehicleLine) -> None:
+        """Take in a vehicle, before its line is started."""
+        follower = self._followers[line.vehicle] = CommandFollower(self._rows, self._tell)
+        line.followers.append(follower)
+
+    def give(
+        self, vehicle: int, user: str, name: str, parameters: Mapping[str, float], *, valid_for_s: float, when: When
+    ) -> CommandRow:
+        """Give a command; it is written, and in the queue of the link, when this returns.
+
+        Raises
+        ------
+        CommandError
+            There is no such command, a value is not allowed, or too many are open.
+        ArchiveError
+            It cannot be written; nothing was given.
+        """
+        kind = command_named(name)
+        packed(kind, parameters)
+        if not LEAST_VALID <= valid_for_s <= MOST_VALID:
+            raise CommandError(f"{name}: valid for {valid_for_s:g} s; must be from {LEAST_VALID:g} to {MOST_VALID:g} s")
+        if name == "abort":
+            return self.abort(vehicle, user, valid_for_s)
+        line = self._lines[vehicle]
+        row = self._row(line, user, name, parameters, valid_for_s, when)
+        self._rows.add(row)
+        id = int(row.id, 16)
+        self._queue(line, row, lambda end, t: end.commands.give(
+            name, parameters, t, valid_for=valid_for_s, when=when, id=id
+        ))  # fmt: skip
+        return self._found(vehicle, row)
+
+    def abort(self, vehicle: int, user: str, valid_for_s: float = ABORT_VALID) -> CommandRow:
+        """Give an abort, also while the archive takes nothing: its row is written as soon as it can be.
+
+        Raises
+        ------
+        CommandError
+            Too many commands are open, or the disk of the queue keeps nothing.
+        """
+        line = self._lines[vehicle]
+        row = self._row(line, user, "abort", {}, valid_for_s, When.UNTIL_EXPIRY)
+        complaint = self._followers[vehicle].add_now_or_later(row, line.archive_reason)
+        id = int(row.id, 16)
+        self._queue(
+            line, row, lambda end, t: end.commands.abort(t, valid_for=valid_for_s, id=id), is_kept=not complaint
+        )  # fmt: skip
+        return row._replace(words=complaint) if complaint else self._found(vehicle, row)
+
+    def cancel(self, vehicle: int, id: str) -> CommandRow:
+        """Take a command back: for good if it was not sent, else if the vehicle has not begun it.
+
+        Raises
+        ------
+        MissingError
+            There is no such command.
+        """
+        row = self.find(vehicle, id)
+        if not row.is_last:
+            number = int(id, 16)
+            self._answer(self._lines[vehicle].ask(lambda end, t: end.commands.cancel(number, t)))
+        return self._found(vehicle, row)
+
+    def list(self, vehicle: int, limit: int = 100, before: float | None = None) -> Sequence[CommandRow]:
+        """The last commands, the newest first."""
+        page = self._rows.page(vehicle, limit, before)
+        return page if before is not None else [*self._unwritten(vehicle), *page][:limit]
+
+    def percent(self, row: CommandRow) -> int | None:
+        """How far the execution of a command is; None where nobody knows."""
+        follower = self._followers.get(row.vehicle)
+        return None if follower is None else follower.percents.get(row.id)
+
+    def find(self, vehicle: int, id: str) -> CommandRow:
+        """A command of a vehicle.
+
+        Raises
+        ------
+        MissingError
+            There is no such command.
+        """
+        row = self._rows.find(vehicle, id) or next((each for each in self._unwritten(vehicle) if each.id == id), None)
+        if row is None:
+            raise MissingError(f"vehicle {vehicle} has no command {id}")
+        return row
+
+    def history(self, id: str) -> Sequence[tuple[float, str, str]]:
+        """Time, state and words of each state of a command."""
+        return self._rows.history(id)
+
+    def told(self, row: CommandRow) -> dict[str, Any]:
+        """A command as the API tells it."""
+        return row._asdict() | {"is_last": row.is_last, "percent": self.percent(row)}
+
+    def _unwritten(self, vehicle: int) -> Sequence[CommandRow]:
+        """Aborts that the archive does not have yet, the newest first."""
+        follower = self._followers.get(vehicle)
+        return [] if follower is None else list(follower.unwritten)[::-1]
+
+    def _row(
+        self, line: VehicleLine, user: str, name: str, parameters: Mapping[str, float], valid_for: float, when: When
+    ) -> CommandRow:
+        now = line.clock.now()
+        id = f"{secrets.randbits(64) or 1:016x}"
+        return CommandRow(
+            id, line.vehicle, user, now, now + valid_for, name, dict(parameters), when.name.lower(), GIVEN,
+            "written down, not queued yet", now,
+        )  # fmt: skip
+
+    def _queue(self, line: VehicleLine, row: CommandRow, give: Any, *, is_kept: bool = True) -> None:
+        """Let the line take a command whose row is written; if it does not, the row says so."""
+        follower = self._followers[line.vehicle]
+
+        def queue(end: ShoreEnd, t: float) -> None:
+            give(end, t)
+            if is_kept:
+                follower.queued(row, line.clock.of_link(t))
+
+        try:
+            self._answer(line.ask(queue))
+        except (CommandError, VehicleError) as error:
+            if is_kept:
+                self._rows.change(row.id, NOT_SENT, str(error), line.clock.now())
+            raise
+
+    def _answer(self, future: "Future[None]") -> None:
+        try:
+            future.result(ANSWER_WITHIN)
+        except TooLate:
+            if future.cancel():
+                raise VehicleError(_NOT_QUEUED) from None
+            future.result(ANSWER_WITHIN)
+
+    def _found(self, vehicle: int, row: CommandRow) -> CommandRow:
+        return self._rows.find(vehicle, row.id) or row
+
+    def _tell(self, row: CommandRow) -> None:
+        self._hub.publish(Happening("command", row.vehicle, self.told(row)))

@@ -132,6 +132,13 @@ def _from_file(document: dict[str, Any], folder: Path) -> None:
     for key in ("folder", "certificate", "key_file"):
         if isinstance(document.get(key), str):
             document[key] = folder / document[key]
+    alerts = document.get("alerts")
+    if isinstance(alerts, dict):
+        webhooks = alerts.get("webhooks")
+        for way in (alerts.get("email"), *(webhooks if isinstance(webhooks, list) else ())):
+            for key in ("password_file", "secret_file", "ca_file"):
+                if isinstance(way, dict) and isinstance(way.get(key), str):
+                    way[key] = folder / way[key]
     vehicles = document.get("vehicles")
     for vehicle in vehicles if isinstance(vehicles, list) else ():
         if isinstance(vehicle, dict) and isinstance(vehicle.get("key"), str):

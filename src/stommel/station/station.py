@@ -17,7 +17,7 @@ from stommel.station.vehicles.attached import VehicleNews
 from stommel.station.vehicles.commands import Commands
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.opening import VehicleError
-from stommel.station.watching import alarms_of, watch
+from stommel.station.watching import alarms_of, open_alarms, watch
 
 Watcher = Callable[[int, Batch, float], None]
 """Vehicle, what was stored, and the time of the vehicle [s since 1970]; called in the line's thread."""
@@ -126,12 +126,7 @@ class Station:
     def _complete(self, vehicle: int, summary: dict[str, Any]) -> None:
         hold = self._holders.get(vehicle)
         summary["holder"] = None if hold is None else hold.user
-        known = {alarm["key"] for alarm in summary["alarms"]}
-        summary["alarms"] += [
-            {"key": alarm.key, "words": alarm.words, "severity": alarm.severity}
-            for alarm in self.alarms.open_of(vehicle)
-            if alarm.key not in known
-        ]
+        summary["alarms"] = open_alarms(self.alarms, vehicle)
         for completer in self.completers:
             completer(vehicle, summary)
 

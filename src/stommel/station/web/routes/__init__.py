@@ -3,8 +3,10 @@
 from fastapi import APIRouter
 
 from stommel.station.web.routes import (
+    alarms,
     commands,
     data,
+    notes,
     people,
     station,
     vehicles,
@@ -16,4 +18,6 @@ ROUTERS: tuple[APIRouter, ...] = (
     vehicles.router,
     commands.router,
     data.router,
+    alarms.router,
+    notes.router,
 )

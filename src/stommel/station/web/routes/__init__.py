@@ -6,6 +6,7 @@ from stommel.station.web.routes import (
     commands,
     data,
     people,
+    plans,
     station,
     vehicles,
 )
@@ -16,4 +17,5 @@ ROUTERS: tuple[APIRouter, ...] = (
     vehicles.router,
     commands.router,
     data.router,
+    plans.router,
 )

@@ -8,6 +8,7 @@ from stommel.station.web.routes import (
     data,
     notes,
     people,
+    plans,
     station,
     vehicles,
 )
@@ -20,4 +21,5 @@ ROUTERS: tuple[APIRouter, ...] = (
     data.router,
     alarms.router,
     notes.router,
+    plans.router,
 )

@@ -1,6 +1,7 @@
 """How the alarms of a station come to know what its vehicles bring."""
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 from stommel.errors import StommelError
@@ -39,6 +40,7 @@ def watch(alarms: StationAlarms, line: VehicleLine, summary: Callable[[], dict[s
     alarms.watch(line.vehicle, line.clock.now, contact, default_limits(file_of(line.settings.model)))
 
 
+@cache
 def file_of(model: str) -> Vehicle | None:
     """The vehicle file of a vehicle; None where there is none."""
     try:

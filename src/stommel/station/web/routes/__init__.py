@@ -5,7 +5,9 @@ from fastapi import APIRouter
 from stommel.station.web.routes import (
     commands,
     data,
+    link,
     people,
+    series,
     station,
     vehicles,
 )
@@ -15,5 +17,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     people.router,
     vehicles.router,
     commands.router,
+    series.router,
+    link.router,
     data.router,
 )

@@ -63,8 +63,9 @@ class Router {
   }
 
   private changed = (): void => {
-    this.route = parse(location.hash);
-    if (this.route.vehicle !== undefined) this.lastVehicle = this.route.vehicle;
+    const route = parse(location.hash);
+    this.route = route;
+    if (route.vehicle !== undefined) this.lastVehicle = route.vehicle;
   };
 }
 

@@ -104,6 +104,14 @@ export class Desk {
     this.show(before, false);
   }
 
+  /** Begins anew at the present of the source, for instance since a replay has jumped. */
+  restart(): void {
+    this.#drop();
+    this.traces = new Map();
+    this.shown = interval(this.window, this.source.now());
+    this.#ask();
+  }
+
   /** Ends everything: nothing is asked, heard or drawn any more. */
   close(): void {
     clearInterval(this.#timer);

@@ -44,12 +44,20 @@ class Users:
         with self._archive.reading() as connection:
             return [_person(row) for row in connection.execute(select(users).order_by(users.c.name))]
 
-    def count(self) -> int:
-        """How many may log in."""
+    def admins(self) -> int:
+        """How many may log in and look after the station."""
+        return sum(_looks_after(person) for person in self.everybody())
+
+    def require(self, name: str) -> Person:
+        """Somebody of that name.
+
+        Raises
+        ------
+        UnknownPersonError
+            There is nobody.
+        """
         with self._archive.reading() as connection:
-            return connection.execute(
-                select(func.count()).select_from(users).where(users.c.disabled.is_(False))
-            ).scalar_one()
+            return _must_be_there(connection, spelled(name))
 
     def known(self, name: str) -> tuple[Person, str] | None:
         """Somebody and the hash of the password; nothing if nobody has the name."""
@@ -99,14 +107,15 @@ class Users:
         if password is not None:
             values["password_hash"] = hashed(checked_password(password, plain))
         with self._archive.writing() as connection:
-            _must_be_there(connection, plain)
+            before = _must_be_there(connection, plain)
             if values:
                 connection.execute(users.update().where(users.c.name == plain).values(values))
-            if disabled or (role is not None and role is not Role.ADMIN):
+            after = _person(connection.execute(select(users).where(users.c.name == plain)).one())
+            if _looks_after(before) and not _looks_after(after):
                 _somebody_looks_after(connection)
             if disabled or password is not None:
                 connection.execute(sessions.delete().where(sessions.c.user == plain))
-            return _person(connection.execute(select(users).where(users.c.name == plain)).one())
+        return after
 
     def remove(self, name: str) -> None:
         """Remove somebody with their sessions and tokens; what they did stays in the audit log.
@@ -120,20 +129,27 @@ class Users:
         """
         plain = spelled(name)
         with self._archive.writing() as connection:
-            _must_be_there(connection, plain)
+            person = _must_be_there(connection, plain)
             connection.execute(sessions.delete().where(sessions.c.user == plain))
             connection.execute(tokens.delete().where(tokens.c.user == plain))
             connection.execute(users.delete().where(users.c.name == plain))
-            _somebody_looks_after(connection)
+            if _looks_after(person):
+                _somebody_looks_after(connection)
 
 
 def _person(row: object) -> Person:
     return Person(row.name, Role(row.role), seconds(row.added_us), row.disabled)  # type: ignore[attr-defined]
 
 
-def _must_be_there(connection: Connection, name: str) -> None:
-    if connection.execute(select(users.c.name).where(users.c.name == name)).one_or_none() is None:
+def _must_be_there(connection: Connection, name: str) -> Person:
+    row = connection.execute(select(users).where(users.c.name == name)).one_or_none()
+    if row is None:
         raise UnknownPersonError(f"nobody is named {name[:64]}", "name", name[:64], "the name of somebody here")
+    return _person(row)
+
+
+def _looks_after(person: Person) -> bool:
+    return person.role is Role.ADMIN and not person.disabled
 
 
 def _somebody_looks_after(connection: Connection) -> None:

@@ -34,30 +34,38 @@ class FlownDive(NamedTuple):
     """From its beginning to that of the next; none where the vehicle's file does not tell energy."""
 
 
+class _Curves(NamedTuple):
+    """Columns of the record, each in one piece: a dive looks at them often."""
+
+    time: Array
+    depth: Array
+    spent: Array | None
+
+
 def dives_of(flown: Flown) -> list[FlownDive]:
     """Every dive of a flight, in order."""
     begins = np.flatnonzero(dives_begun(flown.events["phase"], flown.events["reason"]))
-    currents = {int(row["dive"]): row for row in flown.surfacings}
-    ends = [*begins[1:], len(flown.events)]
-    spent = energy_curve(flown)
+    found = {int(row["dive"]): row for row in flown.surfacings}
+    ends = [*begins[1:], len(flown.events)][: len(begins)]
+    curves = _Curves(flown.record["time"].copy(), flown.record["depth"].copy(), energy_curve(flown))
+    start = flown.mission.scenario.start_seconds
     return [
-        _dive(flown, number, flown.events[first : last + 1], currents.get(number), spent)
+        _dive(number, flown.events[first : last + 1], flown.record[-1], curves, found.get(number), start)
         for number, (first, last) in enumerate(zip(begins, ends, strict=True), 1)
     ]
 
 
 def _dive(
-    flown: Flown, number: int, events: NDArray[np.void], surfacing: np.void | None, spent: Array | None
+    number: int, events: NDArray[np.void], final: np.void, curves: _Curves, surfacing: np.void | None, start: float
 ) -> FlownDive:
     """One dive by its events, of which the first begins it; those of the next dive, if there is one, end it."""
-    record, start = flown.record, flown.mission.scenario.start_seconds
     begin, later = events[0], events[1:]
     above = later[~np.isin(later["phase"], _UNDER_WATER)]
-    end = above[0] if len(above) else later[-1] if len(later) else record[-1]
-    rows = slice(*np.searchsorted(record["time"], (begin["time"], end["time"])))
-    depths = record["depth"][rows]
-    until = later[-1]["time"] if len(later) else record["time"][-1]
-    used = None if spent is None else np.diff(np.interp((begin["time"], until), record["time"], spent))
+    end = above[0] if len(above) else later[-1] if len(later) else final
+    until = float(later[-1]["time"]) if len(later) else float(curves.time[-1])
+    rows = slice(*np.searchsorted(curves.time, (begin["time"], end["time"])))
+    deepest = max(float(begin["depth"]), *(float(row["depth"]) for row in later), *curves.depth[rows].tolist(), 0.0)
+    used = None if curves.spent is None else np.diff(np.interp((begin["time"], until), curves.time, curves.spent))
     return FlownDive(
         dive=number,
         t_begin=start + float(begin["time"]),
@@ -66,7 +74,7 @@ def _dive(
         longitude_begin=float(np.degrees(begin["longitude"])),
         latitude_end=float(np.degrees(end["latitude"])),
         longitude_end=float(np.degrees(end["longitude"])),
-        greatest_depth_m=float(depths.max()) if len(depths) else float(begin["depth"]),
+        greatest_depth_m=deepest,
         current_north_m_s=None if surfacing is None else float(surfacing["current_north"]),
         current_east_m_s=None if surfacing is None else float(surfacing["current_east"]),
         energy_j=None if used is None else float(used[0]),

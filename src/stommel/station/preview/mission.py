@@ -6,7 +6,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from stommel.errors import StommelError
 from stommel.mission.plan import Plan
 from stommel.ocean.ocean import Ocean
 from stommel.simulation.scenario.loading import mission_from
@@ -17,7 +16,9 @@ from stommel.vehicle import Vehicle, load_vehicle
 
 ORIGIN = "plan"
 """How sentences name it."""
-_ROWS = 200_000
+_SAMPLES_EVERY = 600.0
+"""[s]"""
+_ROWS = 100_000
 """Of a preview's record, about; a longer mission is written down less often."""
 
 
@@ -41,6 +42,8 @@ def _scenario(plan: StationPlan) -> dict[str, Any]:
     """Values of a mission file; what does not matter to a preview, as the errors of sensors, is left as it is."""
     told = plan.model_dump(include=set(Plan.model_fields), exclude_none=True)
     start = datetime.now(UTC) if plan.start_time is None else plan.start_time
+    # how often the CTD measures is the acquisition node's affair, and would only fill the memory here
+    told["sampling"] = told["sampling"] | {"every_s": _SAMPLES_EVERY}
     return told | {
         "vehicle": plan.vehicle,
         "start": plan.start.model_dump(),
@@ -58,12 +61,9 @@ def _vehicle(name: str) -> Vehicle:
 
 @lru_cache(maxsize=8)
 def _ocean(water: Water) -> Ocean:
-    try:
-        ocean = Ocean.analytic(water.ocean)
-    except StommelError as error:
-        raise PlanError([problem("water.ocean", str(error))]) from None
     if water.current == "last_dive":
         raise PlanError([problem("water.current", "water.current = 'last_dive': is known at the station only")])
+    ocean = Ocean.analytic(water.ocean)
     if water.current == "ocean":
         return ocean
     return ocean.with_current(water.east_m_s, water.north_m_s)

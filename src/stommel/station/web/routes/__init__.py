@@ -3,11 +3,15 @@
 from fastapi import APIRouter
 
 from stommel.station.web.routes import (
+    alarms,
     commands,
     data,
     link,
     people,
     series,
+    notes,
+    people,
+    plans,
     station,
     vehicles,
 )
@@ -20,4 +24,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     series.router,
     link.router,
     data.router,
+    alarms.router,
+    notes.router,
+    plans.router,
 )

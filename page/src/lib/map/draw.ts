@@ -1,0 +1,178 @@
+// Draws what does not move by hand: land, graticule, chart layers, tracks, fence, arrows. On a canvas, as fast as dragging.
+
+import { geoPath, type GeoProjection } from 'd3-geo';
+import { token } from '../theme.svelte';
+import { landWithin, type LandPart } from './land';
+import type { MapArrow, MapLayer, MapTrack, Place } from './types';
+import { graticuleLabel, graticuleStep, pixelsPerMetre, placeAt, projection, wrapped, type MapView, type Size } from './view';
+
+export interface Scene {
+  land: LandPart[];
+  layers: readonly MapLayer[];
+  images: ReadonlyMap<string, HTMLImageElement>;
+  tracks: readonly MapTrack[];
+  fence: readonly Place[];
+  arrows: readonly MapArrow[];
+  circles: readonly (Place & { radius_m: number; kind: 'waypoint' | 'uncertainty' })[];
+}
+
+/** Pixels of an arrow to 1 m/s. */
+export const ARROW_PX = 150;
+
+type Context = CanvasRenderingContext2D;
+
+export function draw(context: Context, view: MapView, size: Size, scene: Scene): void {
+  const project = projection(view, size);
+  context.clearRect(0, 0, size.width, size.height);
+  context.fillStyle = token('sea');
+  context.fillRect(0, 0, size.width, size.height);
+  context.lineJoin = 'round';
+  drawLand(context, project, view, size, scene.land);
+  for (const layer of scene.layers) drawLayer(context, project, layer, scene.images);
+  drawGraticule(context, project, view, size);
+  drawFence(context, project, scene.fence);
+  for (const circle of scene.circles) drawCircle(context, project, view, circle);
+  for (const track of scene.tracks) drawTrack(context, project, track);
+  for (const arrow of scene.arrows) drawArrow(context, project, arrow);
+}
+
+function bounds(view: MapView, size: Size): [number, number, number, number] {
+  const half = (size.width / 2 / view.scale) * (180 / Math.PI);
+  const top = placeAt(view, size, size.width / 2, 0).latitude;
+  const bottom = placeAt(view, size, size.width / 2, size.height).latitude;
+  return [view.longitude - half, view.longitude + half, bottom, top];
+}
+
+function drawLand(context: Context, project: GeoProjection, view: MapView, size: Size, parts: LandPart[]): void {
+  const [west, east, south, north] = bounds(view, size);
+  context.beginPath();
+  geoPath(project, context)(landWithin(parts, west, east, south, north));
+  context.fillStyle = token('land');
+  context.fill();
+  context.strokeStyle = token('coast');
+  context.lineWidth = 1;
+  context.stroke();
+}
+
+function drawLayer(context: Context, project: GeoProjection, layer: MapLayer, images: Scene['images']): void {
+  const image = layer.image === undefined ? undefined : images.get(layer.image);
+  if (image && layer.bounds) {
+    const [west, south, east, north] = layer.bounds;
+    const first = project([west, north]);
+    const last = project([east, south]);
+    if (first && last) context.drawImage(image, first[0], first[1], last[0] - first[0], last[1] - first[1]);
+  }
+  if (!layer.geojson) return;
+  context.beginPath();
+  geoPath(project, context).pointRadius(3)(layer.geojson as Parameters<ReturnType<typeof geoPath>>[0]);
+  context.strokeStyle = token('ink-3');
+  context.lineWidth = 1;
+  context.stroke();
+}
+
+function drawGraticule(context: Context, project: GeoProjection, view: MapView, size: Size): void {
+  const [west, east, south, north] = bounds(view, size);
+  const step = graticuleStep(view);
+  context.strokeStyle = token('ink');
+  context.fillStyle = token('ink-2');
+  context.font = `11px ${getComputedStyle(document.body).fontFamily}`;
+  context.lineWidth = 1;
+  const label = (words: string, x: number, y: number): void => context.fillText(words, x, y);
+  context.globalAlpha = 0.13;
+  context.beginPath();
+  const columns: [number, number][] = [];
+  const rows: [number, number][] = [];
+  for (let i = Math.ceil(west / step); i * step <= east; i += 1) {
+    const x = Math.round(project([i * step, view.latitude])?.[0] ?? 0) + 0.5;
+    columns.push([wrapped(i * step), x]);
+    context.moveTo(x, 0);
+    context.lineTo(x, size.height);
+  }
+  for (let i = Math.ceil(south / step); i * step <= north; i += 1) {
+    const y = Math.round(project([view.longitude, i * step])?.[1] ?? 0) + 0.5;
+    rows.push([i * step, y]);
+    context.moveTo(0, y);
+    context.lineTo(size.width, y);
+  }
+  context.stroke();
+  context.globalAlpha = 1;
+  context.textAlign = 'left';
+  for (const [value, x] of columns) if (x > 60) label(graticuleLabel(value, step, ['E', 'W']), x + 3, 12);
+  for (const [value, y] of rows) if (y > 30) label(graticuleLabel(value, step, ['N', 'S']), 4, y - 3);
+}
+
+function drawFence(context: Context, project: GeoProjection, fence: readonly Place[]): void {
+  if (fence.length < 3) return;
+  context.beginPath();
+  line(context, project, [...fence, fence[0] as Place]);
+  context.strokeStyle = token('warning');
+  context.lineWidth = 1.5;
+  context.setLineDash([2, 4]);
+  context.stroke();
+  context.setLineDash([]);
+}
+
+function line(context: Context, project: GeoProjection, places: readonly Place[]): void {
+  geoPath(project, context)({
+    type: 'LineString',
+    coordinates: places.map((place) => [place.longitude, place.latitude]),
+  });
+}
+
+function drawCircle(context: Context, project: GeoProjection, view: MapView, circle: Scene['circles'][number]): void {
+  const at = project([circle.longitude, circle.latitude]);
+  const radius = circle.radius_m * pixelsPerMetre(view, circle.latitude);
+  if (!at || radius < 3 || radius > 20000) return;
+  context.beginPath();
+  context.arc(at[0], at[1], radius, 0, 2 * Math.PI);
+  const colour = token(circle.kind === 'waypoint' ? 'ink-3' : 'hull');
+  context.strokeStyle = colour;
+  context.fillStyle = colour;
+  context.lineWidth = 1;
+  context.globalAlpha = circle.kind === 'waypoint' ? 0.06 : 0.16;
+  context.fill();
+  context.globalAlpha = 0.8;
+  if (circle.kind === 'waypoint') context.setLineDash([3, 3]);
+  context.stroke();
+  context.setLineDash([]);
+  context.globalAlpha = 1;
+}
+
+function drawTrack(context: Context, project: GeoProjection, track: MapTrack): void {
+  if (track.places.length < 2) return;
+  context.beginPath();
+  line(context, project, track.places);
+  context.strokeStyle = token(track.kind === 'flown' ? 'track' : track.kind === 'planned' ? 'ink-3' : 'series-2');
+  context.lineWidth = track.kind === 'planned' ? 1.25 : 2;
+  context.setLineDash(track.kind === 'planned' ? [6, 4] : track.kind === 'predicted' ? [2, 3] : []);
+  context.stroke();
+  context.setLineDash([]);
+}
+
+function drawArrow(context: Context, project: GeoProjection, arrow: MapArrow): void {
+  const at = project([arrow.longitude, arrow.latitude]);
+  const speed = Math.hypot(arrow.north_m_s, arrow.east_m_s);
+  if (!at || speed < 0.005 || !Number.isFinite(speed)) return;
+  const length = Math.min(speed * ARROW_PX, 160);
+  context.globalAlpha = arrow.strong === false ? 0.45 : 1;
+  stroked(context, at, [arrow.east_m_s / speed, -arrow.north_m_s / speed], length);
+  context.globalAlpha = 1;
+}
+
+function stroked(context: Context, at: [number, number], way: [number, number], length: number): void {
+  const [x, y] = [at[0] + way[0] * length, at[1] + way[1] * length];
+  const head = Math.min(7, length / 2);
+  const side = (turn: number): [number, number] => [
+    x - head * (way[0] * Math.cos(turn) - way[1] * Math.sin(turn)),
+    y - head * (way[0] * Math.sin(turn) + way[1] * Math.cos(turn)),
+  ];
+  context.beginPath();
+  context.moveTo(...at);
+  context.lineTo(x, y);
+  context.moveTo(...side(0.45));
+  context.lineTo(x, y);
+  context.lineTo(...side(-0.45));
+  context.strokeStyle = token('current');
+  context.lineWidth = 1.75;
+  context.stroke();
+}

@@ -1,0 +1,57 @@
+// What a map can show, and what can be edited on it. Angles in degrees, distances in m, speeds in m/s.
+
+export interface Place {
+  latitude: number;
+  longitude: number;
+}
+
+export interface MapVehicle extends Place {
+  vehicle: number;
+  name: string;
+  heading_deg?: number | null | undefined;
+  /** Standard deviation of the position. */
+  sigma_m?: number | null | undefined;
+  stale?: boolean;
+}
+
+export interface MapTrack {
+  id: string;
+  places: readonly Place[];
+  kind: 'flown' | 'planned' | 'predicted';
+  words?: string;
+}
+
+export interface MapWaypoint extends Place {
+  radius_m?: number | null;
+  label?: string;
+  /** The one that is aimed at now. */
+  active?: boolean;
+}
+
+export interface MapArrow extends Place {
+  north_m_s: number;
+  east_m_s: number;
+  words?: string;
+  /** The present or last one; earlier ones are drawn fainter. */
+  strong?: boolean;
+}
+
+export interface MapLayer {
+  id: number | string;
+  name: string;
+  /** GeoJSON of lines, areas and points ... */
+  geojson?: GeoJSON.GeoJsonObject;
+  /** ... or an image between these bounds: west, south, east, north. */
+  image?: string;
+  bounds?: [number, number, number, number];
+}
+
+/** Hooks of whoever lets people edit the waypoints. Without a hook that deed is not possible. */
+export interface MapEditing {
+  add?: (place: Place) => void;
+  /** Between waypoint `index` and the next. */
+  insert?: (index: number, place: Place) => void;
+  move?: (index: number, place: Place) => void;
+  remove?: (index: number) => void;
+  choose?: (index: number | undefined) => void;
+}

@@ -1,0 +1,138 @@
+"""The page in Chromium: a station to look at, a browser, pictures under build/screenshots."""
+
+import os
+import subprocess
+import sys
+import time
+import urllib.request
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+import stommel
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILT = Path(stommel.__file__).parent / "station" / "built" / "index.html"
+CHROMIUM = Path("/usr/bin/chromium")
+ARGUMENTS = [
+    "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync", "--js-flags=--expose-gc",
+    "--enable-precise-memory-info",
+]  # fmt: skip
+AXE = ROOT / "page" / "node_modules" / "axe-core" / "axe.min.js"
+Screenshot = Callable[[str], Path]
+
+
+def answers(address: str, process: "subprocess.Popen[bytes]", seconds: float = 60.0) -> None:
+    """Wait until a server answers; fail with its words if it ends before."""
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        assert process.poll() is None, f"the server ended with status {process.returncode}"
+        try:
+            urllib.request.urlopen(f"{address}/api/station", timeout=5.0).close()
+        except OSError:
+            time.sleep(0.1)
+        else:
+            return
+    pytest.fail(f"no answer from {address} within {seconds} s")
+
+
+def free_port() -> int:
+    """A port of this machine that nothing listens on."""
+    import socket
+
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return int(one.getsockname()[1])
+
+
+def serve(command: list[str], address: str) -> "Iterator[subprocess.Popen[bytes]]":
+    """A server while it is needed; it is ended as Ctrl-C would, and killed if that does not help."""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT / "src"), str(ROOT)])}
+    process = subprocess.Popen(command, cwd=ROOT, env=environment)
+    try:
+        answers(address, process)
+        yield process
+    finally:
+        process.terminate()
+        try:
+            process.wait(timeout=15)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture(scope="session")
+def built() -> None:
+    """The page, which `make page` builds; `make test` does so before."""
+    if not BUILT.exists():
+        pytest.skip("the page is not built: make page")
+
+
+@pytest.fixture(scope="session")
+def fake_station(built: None) -> Iterator[str]:
+    """Address of a stand-in whose answers are made up: quick, with every state of the page on demand."""
+    address = f"http://127.0.0.1:{(port := free_port())}"
+    for _ in serve([sys.executable, "-m", "tests.page.fake_station", str(port)], address):
+        yield address
+
+
+@pytest.fixture(scope="session")
+def browser() -> "Iterator[object]":
+    """Debian's Chromium without a window."""
+    sync_api = pytest.importorskip("playwright.sync_api")
+    if not CHROMIUM.exists():
+        pytest.skip(f"no Chromium at {CHROMIUM}")
+    with sync_api.sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=str(CHROMIUM), args=ARGUMENTS)
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture
+def page(browser, request: pytest.FixtureRequest):
+    """A page whose browser has seen the tour; what it throws fails the test. Options of the context by parameter."""
+    options = getattr(request, "param", {})
+    context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce", **options})
+    context.add_init_script("localStorage.setItem('stommel.tour', 'done')")
+    tab = context.new_page()
+    tab.set_default_timeout(20_000)
+    thrown: list[str] = []
+    tab.on("pageerror", lambda error: thrown.append(str(error)))
+    yield tab
+    context.close()
+    assert not thrown, f"the page threw: {thrown}"
+
+
+@pytest.fixture
+def screenshot(page) -> Screenshot:
+    """Keeps a picture of the page in build/screenshots, which CI keeps and people look at."""
+    folder = ROOT / "build" / "screenshots"
+    folder.mkdir(parents=True, exist_ok=True)
+
+    def keep(name: str) -> Path:
+        path = folder / f"{name}.png"
+        page.screenshot(path=path)
+        return path
+
+    return keep
+
+
+@pytest.fixture
+def serious(page) -> Callable[[], list[str]]:
+    """Serious and critical findings of axe-core on the page as it is now."""
+    if not AXE.exists():
+        pytest.skip("axe-core is not installed: make page")
+
+    def find() -> list[str]:
+        page.add_script_tag(path=AXE)
+        found = page.evaluate("axe.run(document, {resultTypes: ['violations']})")["violations"]
+        return [
+            f"{one['id']}: {node['target']} {node['failureSummary']}"
+            for one in found
+            if one["impact"] in ("serious", "critical")
+            for node in one["nodes"]
+        ]
+
+    return find

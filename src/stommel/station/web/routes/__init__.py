@@ -3,9 +3,12 @@
 from fastapi import APIRouter
 
 from stommel.station.web.routes import (
+    alarms,
     commands,
     data,
+    notes,
     people,
+    plans,
     station,
     vehicles,
 )
@@ -16,4 +19,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     vehicles.router,
     commands.router,
     data.router,
+    alarms.router,
+    notes.router,
+    plans.router,
 )

@@ -69,6 +69,11 @@ export function valueRange(low: number | null, high: number | null, limits: read
   return [bottom - room, top + room];
 }
 
+/** Whole numbers that stand for words, with half a step around them. */
+function namedRange(low: number | null, high: number | null): [number, number] {
+  return [Math.floor(low ?? 0) - 0.3, Math.ceil(high ?? 1) + 0.3];
+}
+
 export function chart(settings: ChartSettings, data: uPlot.AlignedData, place: HTMLElement): uPlot {
   return new uPlot(options(settings), data, place);
 }
@@ -97,7 +102,7 @@ function options(settings: ChartSettings): uPlot.Options {
       x: { time: true, range: () => { const { begin, end } = settings.shown(); return [begin, end]; } },
       y: {
         dir: settings.isDepth ? -1 : 1,
-        range: (_plot, low, high) => valueRange(low, high, settings.limits(), settings.isDepth),
+        range: (_plot, low, high) => (settings.words ? namedRange(low, high) : valueRange(low, high, settings.limits(), settings.isDepth)),
       },
     },
     series: [{}, ...Array.from({ length: settings.traces }, (_, index) => series(settings, index))],

@@ -81,9 +81,11 @@ export function ownPanels(keys: readonly string[], channels: ReadonlyMap<string,
 
 function titleOf(keys: readonly string[], channels: ReadonlyMap<string, Channel>): string {
   const [first] = keys.map((key) => channels.get(key));
-  if (keys.length === 1) return first?.words ?? '';
+  if (keys.length === 1) return capital(first?.words ?? '');
   return first?.unit ? `${keys.length} channels in ${first.unit}` : `${keys.length} channels`;
 }
+
+const capital = (words: string): string => words.slice(0, 1).toUpperCase() + words.slice(1);
 
 export function isDepthLike(channel: Channel): boolean {
   return channel.key.startsWith('depth') || channel.standard_name === 'depth';

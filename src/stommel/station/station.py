@@ -12,12 +12,13 @@ from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.people.holders import Hold
 from stommel.station.people.people import People
+from stommel.station.preview.previews import Previews
 from stommel.station.settings import StationSettings, VehicleSettings
 from stommel.station.vehicles.attached import VehicleNews
 from stommel.station.vehicles.commands import Commands
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.opening import VehicleError
-from stommel.station.watching import alarms_of, watch
+from stommel.station.watching import alarms_of, open_alarms, watch
 
 Watcher = Callable[[int, Batch, float], None]
 """Vehicle, what was stored, and the time of the vehicle [s since 1970]; called in the line's thread."""
@@ -55,6 +56,8 @@ class Station:
             self._lock_folder()
             self.archive = Archive.open(settings.database_url)
             self._held.callback(self.archive.close)
+            self.previews = Previews()
+            self._held.callback(self.previews.close)
             self.people = People(self.archive, told=self._holder_changed)
             self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
             self.commands = Commands(self.archive, self.hub, self.vehicles)
@@ -126,12 +129,7 @@ class Station:
     def _complete(self, vehicle: int, summary: dict[str, Any]) -> None:
         hold = self._holders.get(vehicle)
         summary["holder"] = None if hold is None else hold.user
-        known = {alarm["key"] for alarm in summary["alarms"]}
-        summary["alarms"] += [
-            {"key": alarm.key, "words": alarm.words, "severity": alarm.severity}
-            for alarm in self.alarms.open_of(vehicle)
-            if alarm.key not in known
-        ]
+        summary["alarms"] = open_alarms(self.alarms, vehicle)
         for completer in self.completers:
             completer(vehicle, summary)
 

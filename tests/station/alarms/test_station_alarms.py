@@ -196,7 +196,7 @@ def test_pages_of_the_history_leave_nothing_out(archive: Archive) -> None:
     before = None
     while page := scene.alarms.history.listed(before=before, limit=7):
         seen += [alarm.id for alarm in page]
-        before = page[-1].raised, page[-1].id or 0
+        before = page[-1].id
     assert len(seen) == len(set(seen)) == 25
     assert scene.alarms.history.listed(is_open=True) == []
     assert len(scene.alarms.history.listed(is_acknowledged=False, limit=100)) == 25

@@ -9,6 +9,8 @@ from stommel.cli.station.backup import backup
 from stommel.cli.station.check import check, migrate
 from stommel.cli.station.export import export
 from stommel.cli.station.serve import serve
+from stommel.cli.station.token import token_app
+from stommel.cli.station.user import user_app
 
 SERVE = "serve"
 """The verb that `stommel station --database ...` stands for."""
@@ -32,3 +34,5 @@ station_app = typer.Typer(
 station_app.command(SERVE)(serve)
 for _verb in (backup, export, check, migrate):
     station_app.command()(_verb)
+station_app.add_typer(user_app, name="user")
+station_app.add_typer(token_app, name="token")

@@ -36,7 +36,7 @@ Publish = Callable[[str, int | None, Mapping[str, Any]], None]
 class _Watched(NamedTuple):
     watch: VehicleWatch
     now: Callable[[], float]
-    contact: Callable[[], Contact]
+    contact: Callable[[], Contact | None]
 
 
 class StationAlarms:
@@ -82,7 +82,11 @@ class StationAlarms:
     # what is watched
 
     def watch(
-        self, vehicle: int, now: Callable[[], float], contact: Callable[[], Contact], defaults: Sequence[Limit] = ()
+        self,
+        vehicle: int,
+        now: Callable[[], float],
+        contact: Callable[[], Contact | None],
+        defaults: Sequence[Limit] = (),
     ) -> None:
         """Watch a vehicle that the archive knows.
 
@@ -93,7 +97,7 @@ class StationAlarms:
         now
             Its clock [s since 1970].
         contact
-            When it was heard, and when it shall be heard next.
+            When it was heard, and when it shall be heard next; None while its clock is not known.
         defaults
             Limits of channels that never had one.
 
@@ -104,9 +108,7 @@ class StationAlarms:
         """
         self._limits.add_new(vehicle, defaults, "vehicle file")
         open_keys = [alarm.key for alarm in self._register.open_of(vehicle)]
-        watch = VehicleWatch(
-            self._naming, self._settings.surfacing_margin_s, self._settings.longest_silence_s, open_keys
-        )
+        watch = VehicleWatch(self._naming, self._settings, open_keys)
         begun = watch.begin(self._limits.limits_of(vehicle), self._archive.latest(vehicle))
         self._watched[vehicle] = _Watched(watch, now, contact)
         self._register.put(vehicle, begun)

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite
 from threading import Lock
 
+from stommel.station.alarms.alert_settings import AlarmSettings
 from stommel.station.alarms.change import Change
 from stommel.station.alarms.contact_watch import Contact, ContactWatch
 from stommel.station.alarms.limit_watch import LimitWatch, Sample
@@ -21,18 +22,20 @@ class VehicleWatch:
     ----------
     naming
         What people call a channel.
-    margin, longest_silence
-        Of the contact [s].
+    settings
+        When a silence is an alarm.
     open_keys
         Alarms that were raised before, as from before a restart.
     """
 
-    def __init__(self, naming: Naming, margin: float, longest_silence: float, open_keys: Iterable[str] = ()) -> None:
+    def __init__(self, naming: Naming, settings: AlarmSettings, open_keys: Iterable[str] = ()) -> None:
         keys = frozenset(open_keys)
         self._lock = Lock()
         self._limits = LimitWatch(naming, keys)
         self._own = VehicleAlarmWatch(keys)
-        self._contact = ContactWatch(margin, longest_silence, keys)
+        self._contact = ContactWatch(
+            settings.surfacing_margin_s, settings.longest_silence_s, settings.longest_dive_s, keys
+        )
 
     def begin(self, limits: Iterable[Limit], latest: Mapping[str, tuple[float, float]]) -> list[Change]:
         """Watch limits, and hold the newest values that are known against them."""
@@ -50,10 +53,10 @@ class VehicleWatch:
                 changes += self._own.take(t, int(value))
         return changes
 
-    def look(self, now: float, contact: Contact) -> list[Change]:
-        """See at a time [s] what is due."""
+    def look(self, now: float, contact: Contact | None) -> list[Change]:
+        """See at a time [s] what is due; without a contact, only of the limits."""
         with self._lock:
-            return self._limits.look(now) + self._contact.look(now, contact)
+            return self._limits.look(now) + ([] if contact is None else self._contact.look(now, contact))
 
     def put(self, limit: Limit, t: float) -> list[Change]:
         """Watch a limit in place of the channel's limit before."""

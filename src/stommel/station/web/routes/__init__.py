@@ -3,9 +3,15 @@
 from fastapi import APIRouter
 
 from stommel.station.web.routes import (
+    alarms,
     commands,
     data,
+    link,
     people,
+    series,
+    notes,
+    people,
+    plans,
     station,
     vehicles,
 )
@@ -15,5 +21,10 @@ ROUTERS: tuple[APIRouter, ...] = (
     people.router,
     vehicles.router,
     commands.router,
+    series.router,
+    link.router,
     data.router,
+    alarms.router,
+    notes.router,
+    plans.router,
 )

@@ -200,3 +200,9 @@ def test_pages_of_the_history_leave_nothing_out(archive: Archive) -> None:
     assert len(seen) == len(set(seen)) == 25
     assert scene.alarms.history.listed(is_open=True) == []
     assert len(scene.alarms.history.listed(is_acknowledged=False, limit=100)) == 25
+
+
+def test_a_sample_of_an_impossible_time_stops_nothing(archive: Archive) -> None:
+    scene = Scene(archive)
+    rows = scene.samples(("depth_m", 1e12, 250.0), ("depth_m", float("nan"), 250.0), ("depth_m", 2.0, 260.0))
+    assert [(row.raised - T0, row.value) for row in rows] == [(2.0, 260.0)]

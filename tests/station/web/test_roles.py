@@ -13,6 +13,7 @@ from stommel.station.web import app as web_app
 from stommel.station.web.access import least_role
 from stommel.station.web.app import api_routes, create_app
 from stommel.station.web.exposure import Exposure
+from tests.station.stations import station as running
 from tests.station.web.least_roles import ADMIN, HOLDER, LEAST_ROLES, PILOT, PUBLIC, VIEWER
 from tests.support.station_served import PASSWORD, StandInStation, logged_in, served
 
@@ -44,8 +45,10 @@ def test_a_route_without_a_role_does_not_start(station: StandInStation, monkeypa
 @pytest.fixture(scope="module")
 def everybody(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, httpx.Client]]:
     """Somebody of each role, by session and by token."""
-    station = StandInStation(tmp_path_factory.mktemp("station"))
-    with served(create_app(station, Exposure(login=True))) as address:
+    with (
+        running(tmp_path_factory.mktemp("station"), "tcp:127.0.0.1:9", start=False) as station,
+        served(create_app(station, Exposure(login=True))) as address,
+    ):
         clients = {"nobody": httpx.Client(base_url=address)}
         for role in (Role.VIEWER, Role.PILOT, Role.ADMIN):
             station.people.users.add(f"a-{role}", PASSWORD, role)
@@ -55,7 +58,6 @@ def everybody(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, ht
         yield clients
         for client in clients.values():
             client.close()
-    station.close()
 
 
 @pytest.mark.parametrize("who", ["nobody", "viewer", "viewer by token", "pilot", "pilot by token", "admin"])

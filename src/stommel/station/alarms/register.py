@@ -9,6 +9,7 @@ from stommel.station.alarms.alarm import Alarm
 from stommel.station.alarms.change import Change
 from stommel.station.alarms.history import History
 from stommel.station.archive.errors import ArchiveError
+from stommel.station.archive.times import as_kept
 
 Tell = Callable[[Alarm], None]
 MOST_WAITING = 10_000
@@ -92,18 +93,18 @@ class Register:
 
     def _changed(self, vehicle: int | None, change: Change) -> _Raising | None:
         """Open or close an alarm; None if it is so already."""
-        place = vehicle, change.key
+        place, t = (vehicle, change.key), as_kept(change.t)
         with self._lock:
             raising = self._open.get(place)
             if change.raised == (raising is not None):
                 return None
             if raising is None:
                 raising = self._open[place] = _Raising(
-                    Alarm(None, vehicle, change.key, change.words, change.severity, change.t, change.value)
+                    Alarm(None, vehicle, change.key, change.words, change.severity, t, change.value)
                 )
             else:
                 del self._open[place]
-                raising.alarm = replace(raising.alarm, cleared=max(change.t, raising.alarm.raised))
+                raising.alarm = replace(raising.alarm, cleared=max(t, raising.alarm.raised))
         if not raising.is_waiting:
             raising.is_waiting = True
             self._waiting.append(raising)

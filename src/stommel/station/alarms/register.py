@@ -1,9 +1,12 @@
 """Which alarms are open; each is written once, and told whatever the archive does."""
 
+import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from threading import Lock
+
+from sqlalchemy.exc import SQLAlchemyError
 
 from stommel.station.alarms.alarm import Alarm
 from stommel.station.alarms.change import Change
@@ -14,6 +17,7 @@ from stommel.station.archive.times import as_kept
 Tell = Callable[[Alarm], None]
 MOST_WAITING = 10_000
 """Changes, and alarms that wait for the archive; beyond it the oldest is forgotten."""
+_log = logging.getLogger(__name__)
 
 
 @dataclass(eq=False)
@@ -124,6 +128,8 @@ class Register:
                     self._history.clear(number, raising.alarm.cleared)
             except ArchiveError as error:
                 return kept, str(error)
+            except SQLAlchemyError:  # no later try would help: it must not keep the others waiting
+                _log.exception("an alarm that the archive never takes: %s", raising.alarm)
             self._waiting.popleft()
             raising.is_waiting = False
             kept.append(raising)

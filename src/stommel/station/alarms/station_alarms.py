@@ -158,7 +158,10 @@ class StationAlarms:
 
     def _run(self) -> None:
         while not self._stopped.wait(_LOOK_S):
-            self.look()
+            try:
+                self.look()
+            except Exception:  # noqa: BLE001 - nobody would know that alarms have ended
+                _log.exception("alarms")
 
     def _tell(self, alarm: Alarm) -> None:
         self._publish("alarm", alarm.vehicle, alarm.as_row())

@@ -6,6 +6,7 @@ from stommel.station.web.routes import (
     alarms,
     commands,
     data,
+    layers,
     notes,
     people,
     station,
@@ -20,4 +21,5 @@ ROUTERS: tuple[APIRouter, ...] = (
     data.router,
     alarms.router,
     notes.router,
+    layers.router,
 )

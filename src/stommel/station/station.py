@@ -12,6 +12,7 @@ from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.people.holders import Hold
 from stommel.station.people.people import People
+from stommel.station.preview.previews import Previews
 from stommel.station.settings import StationSettings, VehicleSettings
 from stommel.station.vehicles.attached import VehicleNews
 from stommel.station.vehicles.commands import Commands
@@ -55,6 +56,8 @@ class Station:
             self._lock_folder()
             self.archive = Archive.open(settings.database_url)
             self._held.callback(self.archive.close)
+            self.previews = Previews()
+            self._held.callback(self.previews.close)
             self.people = People(self.archive, told=self._holder_changed)
             self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
             self.commands = Commands(self.archive, self.hub, self.vehicles)

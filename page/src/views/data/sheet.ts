@@ -2,6 +2,7 @@
 
 import { ticks as niceTicks } from 'd3-array';
 
+import { token } from '../../lib/theme.svelte';
 import { tickWords } from '../plots/times';
 
 export interface Axis {
@@ -45,14 +46,12 @@ const TIME_STEPS = [
 ];
 
 export function readSheetInk(element: HTMLElement): SheetInk {
-  const style = getComputedStyle(element);
-  const colour = (name: string): string => style.getPropertyValue(name).trim();
   return {
-    text: colour('--ink-2'),
-    faint: colour('--ink-3'),
-    grid: colour('--grid'),
-    ground: colour('--panel'),
-    font: `11px ${style.fontFamily}`,
+    text: token('ink-2'),
+    faint: token('ink-3'),
+    grid: token('grid'),
+    ground: token('panel'),
+    font: `11px ${getComputedStyle(element).fontFamily}`,
   };
 }
 
@@ -124,7 +123,7 @@ export function ground(it: Pen, x: Axis, y: Axis): void {
   for (const tick of ticksOf(x, box.width, x.isTime ? 80 : 64)) {
     const place = Math.round(it.x(tick.value)) + 0.5;
     line(context, place, box.top, place, box.top + box.height + 4);
-    tick.words.split('\n').forEach((words, row) => context.fillText(words, place, box.top + box.height + 7 + 12 * row));
+    context.fillText(tick.words, place, box.top + box.height + 7);
   }
   context.textAlign = 'right';
   context.textBaseline = 'middle';

@@ -53,6 +53,7 @@ const UNITS: [ending: string, unit: string][] = [
   ['_minutes', 'min'],
   ['_days', 'd'],
   ['_deg', 'deg'],
+  ['_kg_m3', 'kg/m³'],
   ['_kpa', 'kPa'],
   ['_mm', 'mm'],
   ['_ml', 'ml'],
@@ -118,6 +119,11 @@ function kindOf(told: Schema, items: Schema | undefined): FieldKind | null {
 export function sectionsOf(schema: Schema, all: Record<string, Schema> = schema.$defs ?? {}): PlanSection[] {
   const plan = resolved(schema, all);
   const found: PlanSection[] = [];
+  const loose = Object.entries(plan.properties ?? {})
+    .filter(([key]) => !HEAD.has(key))
+    .map(([key, each]) => fieldOf(key, each, all, plan.required?.includes(key) ?? false))
+    .filter((field) => field !== null);
+  if (loose.length > 0) found.push({ key: '', title: 'Mission', words: 'when it begins and ends', fields: loose });
   for (const [key, each] of Object.entries(plan.properties ?? {})) {
     const table = (resolved(each, all).anyOf ?? [each]).map((one) => resolved(one, all)).find((one) => one.properties);
     if (!table?.properties) continue;
@@ -144,6 +150,11 @@ function plainLabel(key: string): string {
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
+const HEAD = new Set(['format', 'name', 'vehicle']);
+
+/** Sections that most plans leave alone. */
+export const RARE = new Set(['pitch_control', 'heading_control', 'drift_control']);
+
 const SECTIONS: Record<string, [title: string, words: string]> = {
   dives: ['Dives', 'how deep, how steep and how fast'],
   sampling: ['Sampling', 'when the CTD measures'],
@@ -152,12 +163,24 @@ const SECTIONS: Record<string, [title: string, words: string]> = {
   guidance: ['Way', 'how waypoints are sought and when they count as reached'],
   abort: ['Limits', 'when a dive or the mission is broken off'],
   aborts: ['Limits', 'when a dive or the mission is broken off'],
+  '': ['Mission', 'when it begins and ends'],
+  water: ['Expected water', 'its density sets the ballast, its current moves the predicted track'],
   pitch_control: ['Pitch control', 'feedback of the moving mass on pitch'],
   heading_control: ['Heading control', 'feedback of rudder or rolling mass on heading'],
   drift_control: ['Drift control', 'feedback on depth while it hangs in the water'],
 };
 
 const WORDS: Record<string, [label: string, hint: string]> = {
+  start_time: ['Begins', 'with its time zone, such as 2026-07-01T00:00:00Z; now if left empty'],
+  duration_days: ['Expires after', 'the mission is over so long after its start'],
+  neutral_density_kg_m3: [
+    'Neutral in water of',
+    'density in which the vehicle is neutral without ballast volume; by the water of the plan if left empty',
+  ],
+  'water.ocean': ['Ocean', 'an analytic ocean, such as east_china_sea'],
+  'water.current': ['Current', 'of the ocean, none, given here, or what the last dive found'],
+  'water.north_m_s': ['Current to the north', 'where the current is given here'],
+  'water.east_m_s': ['Current to the east', 'where the current is given here'],
   'dives.depth_m': ['Depth', 'greatest depth of a dive; it turns a little earlier, since it goes on sinking'],
   'dives.pitch_deg': ['Pitch', 'how steep it glides, down and up'],
   'dives.speed_m_s': ['Speed', 'mean speed along the path through the water; the ballast follows from it'],
@@ -204,11 +227,11 @@ export function valueAt(plan: unknown, key: string): unknown {
 /** The plan with another value at a place; undefined takes it out. */
 export function withValue<T extends object>(plan: T, key: string, value: unknown): T {
   const [first, ...rest] = key.split('.') as [string, ...string[]];
-  const copy: Record<string, unknown> = { ...(plan as Record<string, unknown>) };
-  if (rest.length > 0) copy[first] = withValue((copy[first] as object | undefined) ?? {}, rest.join('.'), value);
-  else if (value === undefined) delete copy[first];
-  else copy[first] = value;
-  return copy as T;
+  const own = plan as Record<string, unknown>;
+  const inner = rest.length > 0 ? withValue((own[first] as object | undefined) ?? {}, rest.join('.'), value) : value;
+  const others = Object.entries(own).filter(([name]) => name !== first);
+  if (inner === undefined) return Object.fromEntries(others) as T;
+  return { ...own, [first]: inner } as T;
 }
 
 /** The range of a field in words; empty where there is none. */
@@ -238,4 +261,9 @@ export function short(value: number): string {
   if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e7))
     return value.toExponential().replace('e+', 'e');
   return String(Number(value.toPrecision(9)));
+}
+
+/** The number that was typed; a comma is a point. */
+export function numberOf(text: string): number {
+  return Number(text.trim().replace(',', '.'));
 }

@@ -2,6 +2,7 @@
 
 import uPlot from 'uplot';
 
+import { token } from '../../lib/theme.svelte';
 import { tickWords } from './times';
 import type { Interval } from './window';
 
@@ -25,6 +26,8 @@ export interface ChartSettings {
   readonly isDepth: boolean;
   readonly syncKey: string;
   readonly stepped: readonly boolean[];
+  /** What is asked for, not what is: a dashed line. */
+  readonly dashed: readonly boolean[];
   /** What the values mean, where they stand for words. */
   readonly words: ReadonlyMap<number, string> | null;
   ink(): Ink;
@@ -36,20 +39,18 @@ export interface ChartSettings {
 }
 
 const AXIS_WIDTH = 58;
-const AXIS_HEIGHT = 34;
+const AXIS_HEIGHT = 26;
 const HEADROOM = 0.06;
 const LIMIT_SHADE = 0.09;
 
 /** The colours of the page as they are now. */
 export function readInk(element: HTMLElement): Ink {
-  const style = getComputedStyle(element);
-  const colour = (name: string): string => style.getPropertyValue(name).trim();
   return {
-    text: colour('--ink-2'),
-    grid: colour('--grid'),
-    traces: [1, 2, 3, 4, 5, 6, 7, 8].map((number) => colour(`--series-${number}`)),
-    warning: colour('--warning'),
-    font: `11px ${style.fontFamily}`,
+    text: token('ink-2'),
+    grid: token('grid'),
+    traces: [1, 2, 3, 4, 5, 6, 7, 8].map((number) => token(`series-${number}`)),
+    warning: token('warning'),
+    font: `11px ${getComputedStyle(element).fontFamily}`,
   };
 }
 
@@ -80,6 +81,7 @@ function options(settings: ChartSettings): uPlot.Options {
     legend: { show: false },
     tzDate: (t) => uPlot.tzDate(new Date(t * 1000), 'UTC'),
     cursor: {
+      y: false,
       drag: { x: true, y: false, setScale: false, dist: 4 },
       sync: {
         key: settings.syncKey,
@@ -114,6 +116,7 @@ function series(settings: ChartSettings, index: number): uPlot.Series {
     stroke: () => settings.ink().traces[index % 8] ?? 'gray',
     width: 1.5,
     spanGaps: false,
+    ...(settings.dashed[index] ? { dash: [6, 4] } : {}),
     points: { show: (_plot, _series, first, last) => last - first < 40, size: 4 },
     ...stepped,
   };
@@ -134,8 +137,15 @@ function valueAxis(settings: ChartSettings): uPlot.Axis {
     ...line(settings),
     size: AXIS_WIDTH,
     space: 30,
-    ...(named ? { incrs: [1, 2, 5, 10], values: (_plot: uPlot, ticks: number[]) => ticks.map((tick) => named.get(tick) ?? '') } : {}),
+    ...(named ? { incrs: [1, 2, 5, 10], values: (_plot: uPlot, ticks: number[]) => ticks.map((tick) => named.get(tick) ?? '') } : { values: numbers }),
   };
+}
+
+function numbers(_plot: uPlot, ticks: (number | null)[]): string[] {
+  const [first, second] = ticks;
+  const step = first != null && second != null ? Math.abs(second - first) : 1;
+  const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(step) + 1e-9)));
+  return ticks.map((tick) => (tick === null ? '' : tick.toFixed(digits).replace('-', '\u2212')));
 }
 
 function line(settings: ChartSettings): uPlot.Axis {

@@ -22,7 +22,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, field_serializer, model_validator
 
-from stommel.files.fields import Name, Table
+from stommel.files.fields import Table
 from stommel.files.kinds import Moment
 from stommel.files.ranges import between
 from stommel.mission.plan import Plan, Position
@@ -37,7 +37,9 @@ Current = Annotated[float, between(-5, 5)]
 class Water(Table):
     """The water that the plan expects: its density sets the ballast, its current moves the predicted track."""
 
-    ocean: Name = "east_china_sea"
+    ocean: Literal[
+        "east_china_sea", "south_china_sea", "still", "uniform", "shear", "tide", "gyre", "two_layer", "pool"
+    ] = "east_china_sea"
     """An analytic ocean; see `stommel ocean`."""
     current: Literal["ocean", "still", "given", "last_dive"] = "ocean"
     """That of the ocean; none; `north_m_s` and `east_m_s` everywhere; what the vehicle's last dive found."""

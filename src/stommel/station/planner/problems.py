@@ -12,7 +12,13 @@ from stommel.files.sentences import sentences
 from stommel.station.planner.plan import StationPlan
 
 _SENTENCE = re.compile(r"(?P<key>[A-Za-z_][\w.]*)(?: = (?P<value>.+?))?: (?P<rest>.+)", re.DOTALL)
-_ALLOWED = re.compile(r"\bmust be ([^;]+)")
+_ALLOWED = (
+    (re.compile(r"\bmust (?:be )?([^;]+)"), "{}"),
+    (re.compile(r"(?:deeper than|more than|below) [^,]+, ([\d.]+ \w+)$"), "at most {}"),
+    (re.compile(r"\bknown keys: (.+)"), "one of {}"),
+    (re.compile(r" is missing; (?:add|it) (.+)"), "{}"),
+)
+"""How sentences say what is allowed."""
 _LONGEST_KEY = 120
 
 
@@ -46,10 +52,17 @@ def problem(key: str, sentence: str) -> PlanProblem:
     """Take a sentence apart that names key, value and what is allowed, as all of stommel's do."""
     found = _SENTENCE.fullmatch(sentence)
     value = (found["value"] or "") if found is not None else ""
-    allowed = _ALLOWED.search(sentence)
     if not key and found is not None and len(found["key"]) <= _LONGEST_KEY:
         key = found["key"]
-    return PlanProblem(key, value, sentence, allowed[1].strip() if allowed is not None else "")
+    return PlanProblem(key, value, sentence, _allowed(sentence))
+
+
+def _allowed(sentence: str) -> str:
+    for pattern, words in _ALLOWED:
+        found = pattern.search(sentence)
+        if found is not None:
+            return words.format(found[1].strip())
+    return ""
 
 
 def problems_of(error: ValidationError | StommelError, origin: str = "") -> list[PlanProblem]:

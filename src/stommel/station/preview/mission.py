@@ -6,7 +6,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from stommel.errors import StommelError
 from stommel.mission.plan import Plan
 from stommel.ocean.ocean import Ocean
 from stommel.simulation.scenario.loading import mission_from
@@ -62,12 +61,9 @@ def _vehicle(name: str) -> Vehicle:
 
 @lru_cache(maxsize=8)
 def _ocean(water: Water) -> Ocean:
-    try:
-        ocean = Ocean.analytic(water.ocean)
-    except StommelError as error:
-        raise PlanError([problem("water.ocean", str(error))]) from None
     if water.current == "last_dive":
         raise PlanError([problem("water.current", "water.current = 'last_dive': is known at the station only")])
+    ocean = Ocean.analytic(water.ocean)
     if water.current == "ocean":
         return ocean
     return ocean.with_current(water.east_m_s, water.north_m_s)

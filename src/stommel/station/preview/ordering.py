@@ -6,6 +6,7 @@ from typing import Any
 from stommel.control.orders_file import orders_text
 from stommel.control.vehicle_limits import refusals
 from stommel.errors import StommelError
+from stommel.mission.plan import Sampling
 from stommel.planning.vehicle_limits import vehicle_limits
 from stommel.simulation.planned_orders import planned_orders
 from stommel.simulation.scenario.mission import Mission
@@ -103,4 +104,16 @@ def _warnings(plan: StationPlan, mission: Mission) -> list[str]:
         *(remark.message for remark in remarks(mission)),
         *bottom_remarks(plan, mission.ocean),
         *endurance_remarks(plan, mission),
+        *_interval(plan),
+    ]
+
+
+def _interval(plan: StationPlan) -> list[str]:
+    """Orders say in which phases the CTD measures, not how often: that is a setting of the vehicle's software."""
+    every = plan.sampling.every_s
+    if every == Sampling().every_s:
+        return []
+    return [
+        f"sampling.every_s = {every:g}: orders do not hold it; how often the CTD measures is a setting of the "
+        "vehicle's software (sample_every_s of its configuration)"
     ]

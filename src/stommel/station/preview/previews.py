@@ -10,8 +10,8 @@ from typing import Any
 
 from stommel.errors import StommelError
 from stommel.station.planner.plan import StationPlan
-from stommel.station.planner.problems import PlanError
-from stommel.station.preview.work import CHECK, FLY
+from stommel.station.planner.problems import PlanError, PlanProblem
+from stommel.station.preview.work import CHECK, FLY, OPEN
 from stommel.station.preview.worker import CancelledError, SimulatorError, Worker
 
 MOST_WAITING = 8
@@ -39,7 +39,7 @@ class Job:
     """One request, and what became of it."""
 
     kind: str
-    plan: StationPlan
+    document: dict[str, Any]
     name: str = field(default_factory=lambda: secrets.token_hex(8))
     state: str = WAITING
     share: float = 0.0
@@ -126,9 +126,8 @@ class _Lane:
         if job.stop.is_set():
             job.state = CANCELLED
             return
-        document = job.plan.model_dump(mode="json", exclude_none=True)
         try:
-            job.result = self._worker.ask(job.kind, document, self._limit, job.stop, job.told)
+            job.result = self._worker.ask(job.kind, job.document, self._limit, job.stop, job.told)
             job.state, job.share = DONE, 1.0
         except CancelledError:
             job.state = CANCELLED
@@ -162,7 +161,7 @@ class Previews:
         TooManyJobsError
             The queue is full.
         """
-        job = Job(FLY, plan)
+        job = Job(FLY, _plain(plan))
         self._lanes[FLY].put(job)
         with self._lock:
             self._jobs[job.name] = job
@@ -204,17 +203,49 @@ class Previews:
         SimulatorError
             The simulator gave no answer, or not yet.
         """
-        job = Job(CHECK, plan)
+        try:
+            return self._asked(CHECK, _plain(plan), patience)
+        except PlanError as error:
+            return {"problems": [each.as_row() for each in error.problems], "warnings": [], "orders": None}
+
+    def orders(self, plan: StationPlan) -> str:
+        """Text of a plan's orders.
+
+        Raises
+        ------
+        PlanError
+            Everything that is wrong with it.
+        TooManyJobsError, SimulatorError
+            As `check`.
+        """
+        found = self.check(plan)
+        if found["orders"] is None:
+            raise PlanError(PlanProblem(**row) for row in found["problems"])
+        return str(found["orders"])
+
+    def open(self, orders: str, around: dict[str, Any], patience: float = LONGEST_CHECK) -> dict[str, Any]:
+        """Plan of orders, and what of them it cannot hold; `around` as `preview.opening.opened` has it.
+
+        Raises
+        ------
+        PlanError
+            The text is no orders file, or is one for another vehicle.
+        TooManyJobsError, SimulatorError
+            As `check`.
+        """
+        return self._asked(OPEN, {"orders": orders, "around": around}, patience)
+
+    def _asked(self, kind: str, document: dict[str, Any], patience: float) -> dict[str, Any]:
+        """Wait for the answer to a short question."""
+        job = Job(kind, document)
         self._lanes[CHECK].put(job)
         if not job.over.wait(patience):
             job.stop.set()
             raise SimulatorError("the simulator is still being made ready; ask again in a minute")
-        if job.error is not None:
-            if job.error["problems"]:
-                return {"problems": job.error["problems"], "warnings": [], "orders": None}
-            raise SimulatorError(job.error["reason"])
-        if job.result is None:
-            raise SimulatorError(_ENDING)
+        if job.error is not None and job.error["problems"]:
+            raise PlanError(PlanProblem(**row) for row in job.error["problems"])
+        if job.error is not None or job.result is None:
+            raise SimulatorError(_ENDING if job.error is None else job.error["reason"])
         answer: dict[str, Any] = job.result
         return answer
 
@@ -228,3 +259,8 @@ class Previews:
             if name not in self._jobs:
                 raise UnknownJobError(f"there is no job {name[:40]!r}; the last {MOST_KEPT} that are over are kept")
             return self._jobs[name]
+
+
+def _plain(plan: StationPlan) -> dict[str, Any]:
+    """A plan as its JSON has it."""
+    return plan.model_dump(mode="json", exclude_none=True)

@@ -8,13 +8,12 @@ from multiprocessing import connection, parent_process
 from typing import Any
 
 from stommel.errors import StommelError
-from stommel.station.planner.plan import StationPlan
 from stommel.station.planner.problems import plan_from, problems_of
 
 READY, SHARE, DONE, REFUSED, STOPPED = "ready", "share", "done", "refused", "stopped"
 """What the process says: it can work; how far it is; the answer; what is wrong with the plan; it was told to stop."""
-CHECK, FLY = "check", "fly"
-"""What it is asked for: the orders of a plan, or its flight."""
+CHECK, FLY, OPEN = "check", "fly", "open"
+"""What it is asked for: the orders of a plan, its flight, or the plan of orders."""
 
 _FIRST = {
     "name": "warm",
@@ -33,7 +32,7 @@ class _ToldToStopError(Exception):
 
 
 def work(channel: "connection.Connection[Any, Any]", answers: "dict[str, Answer] | None" = None) -> None:
-    """Answer requests (kind, plan) from a channel; `answers` stand in for the simulator, in tests."""
+    """Answer requests (kind, document) from a channel; `answers` stand in for the simulator, in tests."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's
     threading.Thread(target=_end_with_parent, daemon=True).start()
     known = _answers() if answers is None else answers
@@ -47,8 +46,8 @@ def work(channel: "connection.Connection[Any, Any]", answers: "dict[str, Answer]
             channel.send(_answer(channel, known[kind], document))
 
 
-Answer = Callable[[StationPlan, Callable[[float], None]], Any]
-"""What a plan is answered with; the second argument is called with the share that is done."""
+Answer = Callable[[Any, Callable[[float], None]], Any]
+"""What a document is answered with; the second argument is called with the share that is done."""
 
 
 def _answer(channel: "connection.Connection[Any, Any]", answer: Answer, document: Any) -> tuple[str, Any]:
@@ -59,7 +58,7 @@ def _answer(channel: "connection.Connection[Any, Any]", answer: Answer, document
         channel.send((SHARE, share))
 
     try:
-        return DONE, answer(plan_from(document), progress)
+        return DONE, answer(document, progress)
     except _ToldToStopError:
         return STOPPED, None
     except StommelError as error:
@@ -68,10 +67,15 @@ def _answer(channel: "connection.Connection[Any, Any]", answer: Answer, document
 
 def _answers() -> dict[str, Answer]:
     from stommel.station.preview.flight import previewed  # noqa: PLC0415 - only this process pays for the simulator
+    from stommel.station.preview.opening import opened  # noqa: PLC0415
     from stommel.station.preview.ordering import ordered  # noqa: PLC0415
 
     previewed(plan_from(_FIRST))
-    return {CHECK: lambda plan, _: ordered(plan).as_row(), FLY: previewed}
+    return {
+        CHECK: lambda document, _: ordered(plan_from(document)).as_row(),
+        FLY: lambda document, progress: previewed(plan_from(document), progress),
+        OPEN: lambda document, _: opened(document["orders"], document["around"]).as_row(),
+    }
 
 
 def _end_with_parent() -> None:

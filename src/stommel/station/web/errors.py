@@ -21,6 +21,9 @@ from stommel.station.people.errors import (
     UnknownPersonError,
     WrongLoginError,
 )
+from stommel.station.planner.problems import PlanError
+from stommel.station.preview.previews import TooManyJobsError, UnknownJobError
+from stommel.station.preview.worker import SimulatorError
 from stommel.station.vehicles.opening import MissingError, VehicleError
 
 MOST_PROBLEMS = 20
@@ -40,6 +43,9 @@ STATUS: tuple[tuple[type[StommelError], int], ...] = (
     (PeopleError, 422),
     (MissingError, 404),
     (VehicleError, 503),
+    (TooManyJobsError, 429),
+    (UnknownJobError, 404),
+    (SimulatorError, 503),
     (ArchiveRequestError, 422),
     (ArchiveError, 503),
     (StommelError, 422),
@@ -119,6 +125,9 @@ async def _mendable(_request: Request, error: Exception) -> JSONResponse:
     if isinstance(error, FileError):
         found = [detail_of(line.message, line.key)["detail"] for line in error.problems[:MOST_PROBLEMS]]
         return JSONResponse({"detail": found[0] | {"problems": found}}, status)
+    if isinstance(error, PlanError):
+        rows = [detail_of(each.reason, each.key, each.value, each.allowed)["detail"] for each in error.problems]
+        return JSONResponse({"detail": rows[0] | {"problems": rows[:MOST_PROBLEMS]}}, status)
     about = [getattr(error, name, None) for name in ("key", "value", "allowed")]
     return JSONResponse(detail_of(str(error), *about), status, headers=headers)
 

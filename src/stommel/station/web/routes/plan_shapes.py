@@ -1,0 +1,212 @@
+"""What is asked and answered about plans, as JSON."""
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, Field
+
+from stommel.station.planner.fields import PlanField
+from stommel.station.planner.plan import StationPlan
+
+Number = Annotated[int, Field(ge=1, le=250)]
+MOST_ORDERS = 500_000
+"""Characters of an orders file."""
+
+
+class PlanBody(BaseModel):
+    """A plan, and the vehicle that it is for."""
+
+    vehicle: Number | None = None
+    """Number of the vehicle on the radio; none: of no vehicle yet."""
+    plan: dict[str, Any]
+    """As `PlanTemplate.plan` has it; what is wrong with it is told key by key."""
+
+
+class OrdersBody(BaseModel):
+    """Text of an orders file."""
+
+    orders: Annotated[str, Field(max_length=MOST_ORDERS)]
+
+
+class Problem(BaseModel):
+    """One thing wrong with a plan."""
+
+    key: str
+    value: str
+    reason: str
+    allowed: str
+
+
+class Checked(BaseModel):
+    """Everything that is wrong with a plan, or its orders."""
+
+    problems: list[Problem]
+    warnings: list[str]
+    """What a pilot should know, though it can be flown."""
+    orders: str | None
+    """None where something is wrong."""
+
+
+class StartedJob(BaseModel):
+    """A job that waits or runs."""
+
+    job: str
+
+
+class JobError(BaseModel):
+    """Why a job failed."""
+
+    reason: str
+    problems: list[Problem]
+
+
+class TrackPoint(BaseModel):
+    """A place of the predicted track."""
+
+    t: float
+    lat: float
+    lon: float
+
+
+class PlannedDive(BaseModel):
+    """A predicted dive."""
+
+    dive: int
+    t_begin: float
+    t_end: float
+    latitude_begin: float
+    longitude_begin: float
+    latitude_end: float
+    longitude_end: float
+    greatest_depth_m: float
+    current_north_m_s: float | None
+    current_east_m_s: float | None
+    energy_j: float | None
+
+
+class PlannedWaypoint(BaseModel):
+    """What becomes of a waypoint."""
+
+    number: int
+    reached: bool
+    reached_utc: str | None
+    closest_m: float | None
+
+
+class PlannedPath(BaseModel):
+    """Depth over the way of the first dives."""
+
+    distance_m: list[float]
+    depth_m: list[float]
+
+
+class Preview(BaseModel):
+    """A plan as the simulator flew it."""
+
+    verdict: str
+    outcome: str
+    t_begin: float
+    duration_s: float
+    energy_j: float | None
+    battery_left_share: float | None
+    distance_m: float
+    surfacings: int
+    dive_count: int
+    dives: list[PlannedDive]
+    waypoints: list[PlannedWaypoint]
+    track: list[TrackPoint]
+    series: dict[str, list[float]]
+    """`t`, `depth_m`, `pitch_deg`, `ballast_ml`, `bottom_depth_m`, `energy_j`: columns of one length."""
+    path: PlannedPath
+    warnings: list[str]
+
+
+class Job(BaseModel):
+    """A job, and its result once it is done."""
+
+    job: str
+    state: str
+    """waiting, starting, running, done, failed, cancelled."""
+    share: float
+    seconds_left: float | None
+    result: Preview | None
+    error: JobError | None
+
+
+class OpenedPlan(BaseModel):
+    """Orders as the plan that makes them again."""
+
+    plan: StationPlan
+    remarks: list[str]
+    """What of the orders a plan cannot hold."""
+
+
+class FlownPlan(OpenedPlan):
+    """The plan of the mission that was sent last."""
+
+    mission: str
+    sha256: str
+    t: float
+    """When it was sent [s since 1970]."""
+
+
+class PlanTemplate(BaseModel):
+    """A plan to begin with."""
+
+    name: str
+    words: str
+    plan: StationPlan
+
+
+class PlanTemplates(BaseModel):
+    """Plans to begin with, and what a form needs of each value."""
+
+    templates: list[PlanTemplate]
+    fields: list[PlanField]
+    vehicles: list[str]
+    """Vehicle files that a plan may name."""
+
+
+class DiveDifference(BaseModel):
+    """Flown less predicted."""
+
+    end_s: float | None
+    duration_s: float | None
+    distance_m: float | None
+    depth_m: float | None
+    energy_j: float | None
+
+
+class FlownDive(BaseModel):
+    """A dive that the vehicle reported."""
+
+    dive: int
+    t_begin: float
+    t_end: float | None
+    latitude_begin: float | None
+    longitude_begin: float | None
+    latitude_end: float | None
+    longitude_end: float | None
+    greatest_depth_m: float | None
+    current_north_m_s: float | None
+    current_east_m_s: float | None
+    energy_j: float | None
+
+
+class Compared(BaseModel):
+    """One dive of the mission, counted from its first."""
+
+    dive: int
+    predicted: PlannedDive | None
+    flown: FlownDive | None
+    difference: DiveDifference | None
+
+
+class Comparison(BaseModel):
+    """Planned against flown."""
+
+    mission: str | None
+    t: float | None
+    """When the mission was sent [s since 1970]."""
+    dives: list[Compared]
+    reason: str | None
+    """Why there is nothing to compare with."""

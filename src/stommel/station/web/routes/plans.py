@@ -1,0 +1,191 @@
+"""Plans: problems, orders, predicted flight, what the vehicle flies as a plan, planned against flown."""
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Path, Query
+
+from stommel.geometry.geodesics import Place
+from stommel.planning.vehicle_limits import vehicle_limits
+from stommel.station.planner.comparison import ComparedDive, compared
+from stommel.station.planner.expected_water import ocean_at
+from stommel.station.planner.fields import plan_fields
+from stommel.station.planner.flown import KeptMission, current_of_last_dive, latest_mission, neutral_density
+from stommel.station.planner.plan import StationPlan
+from stommel.station.planner.problems import PlanError, plan_from
+from stommel.station.planner.resolving import resolved
+from stommel.station.planner.templates import DEFAULT_START, place_row, templates
+from stommel.station.station import Station
+from stommel.station.web.access import Pilot, Viewer
+from stommel.station.web.errors import refusal
+from stommel.station.web.found import Line, TheStation
+from stommel.station.web.routes.plan_shapes import (
+    Checked,
+    Compared,
+    Comparison,
+    FlownPlan,
+    Job,
+    OpenedPlan,
+    OrdersBody,
+    PlanBody,
+    PlanTemplate,
+    PlanTemplates,
+    Problem,
+    StartedJob,
+)
+from stommel.vehicle import builtin_names, load_vehicle
+
+router = APIRouter(prefix="/api", tags=["plans"])
+
+JobName = Annotated[str, Path(min_length=1, max_length=64, pattern=r"^[0-9a-f]+$")]
+DEFAULT_VEHICLE = "zju"
+
+
+@router.get("/plan-templates")
+def list_plan_templates(
+    _user: Viewer, station: TheStation, vehicle: Annotated[int | None, Query(ge=1, le=250)] = None
+) -> PlanTemplates:
+    """Return plans to begin with, at the place of a vehicle if one is named."""
+    model, start, density = DEFAULT_VEHICLE, None, None
+    if vehicle is not None:
+        _require(station, vehicle)
+        model, start = _model(station, vehicle), _place(station, vehicle)
+        density = neutral_density(station.archive, vehicle)
+    limits = vehicle_limits(load_vehicle(model))
+    around = {} if density is None else {"neutral_density_kg_m3": density}
+    return PlanTemplates(
+        templates=[
+            PlanTemplate(name=each.name, words=each.words, plan=plan_from(each.plan))
+            for each in templates(model, start, limits.depth_rating_m, around)
+        ],
+        fields=plan_fields(limits),
+        vehicles=_vehicles(station),
+    )
+
+
+@router.post("/plans/validate")
+def validate_plan(_user: Pilot, body: PlanBody, station: TheStation) -> Checked:
+    """Return everything that is wrong with a plan at once, or its orders."""
+    try:
+        plan = _plan(station, body)
+    except PlanError as error:
+        return Checked(problems=[Problem(**each.as_row()) for each in error.problems], warnings=[], orders=None)
+    return Checked(**station.previews.check(plan))
+
+
+@router.post("/plans/preview", status_code=202)
+def preview_plan(_user: Pilot, body: PlanBody, station: TheStation) -> StartedJob:
+    """Let the simulator fly a plan; the job tells how far it is."""
+    return StartedJob(job=station.previews.start(_plan(station, body)))
+
+
+@router.post("/plans/open")
+def open_orders(
+    _user: Pilot, body: OrdersBody, station: TheStation, vehicle: Annotated[int, Query(ge=1, le=250)]
+) -> OpenedPlan:
+    """Return the plan of an orders file for a vehicle."""
+    _require(station, vehicle)
+    return OpenedPlan(**station.previews.open(body.orders, _around(station, vehicle)))
+
+
+@router.get("/jobs/{job}")
+def show_job(_user: Viewer, job: JobName, station: TheStation) -> Job:
+    """Return how far a job is, and its result once it is done."""
+    return Job(**station.previews.job(job))
+
+
+@router.delete("/jobs/{job}")
+def cancel_job(_user: Pilot, job: JobName, station: TheStation) -> Job:
+    """Cancel a job; one that is over stays as it is."""
+    station.previews.cancel(job)
+    return Job(**station.previews.job(job))
+
+
+@router.get("/vehicles/{vehicle}/mission/plan")
+def show_flown_plan(_user: Viewer, line: Line, station: TheStation) -> FlownPlan:
+    """Return the plan of the mission that was sent last: as it was made, or as its orders tell."""
+    kept = latest_mission(station.archive, line.vehicle)
+    if kept is None:
+        raise refusal(404, f"this station has sent vehicle {line.vehicle} no mission yet")
+    about = {"mission": kept.name, "sha256": kept.sha256, "t": kept.t}
+    if kept.plan is not None:
+        return FlownPlan.model_validate(about | {"plan": kept.plan, "remarks": []})
+    return FlownPlan.model_validate(about | station.previews.open(kept.orders, _around(station, line.vehicle)))
+
+
+@router.get("/vehicles/{vehicle}/mission/comparison")
+def compare_mission(
+    _user: Viewer,
+    line: Line,
+    station: TheStation,
+    job: Annotated[str | None, Query(min_length=1, max_length=64, pattern=r"^[0-9a-f]+$")] = None,
+) -> Comparison:
+    """Return the dives of the mission that was sent last, predicted and flown side by side.
+
+    Predicted is what the preview showed that was sent with the plan, or the result of `job`.
+    """
+    kept = latest_mission(station.archive, line.vehicle)
+    if kept is None:
+        return Comparison(mission=None, t=None, dives=[], reason="this station has sent the vehicle no mission yet")
+    predicted = _predicted(station, kept, job)
+    flown = [row._asdict() for row in station.archive.dives(line.vehicle)]
+    rows = compared(predicted or [], flown, kept.t)
+    reason = None
+    if predicted is None:
+        reason = "no preview was made of the mission that the vehicle flies; preview its plan to compare"
+    elif not any(row.flown for row in rows):
+        reason = "the vehicle has reported no dive of this mission yet"
+    dives = [
+        Compared.model_validate(row._asdict() | {"difference": row.difference and row.difference._asdict()})
+        for row in rows
+    ]
+    return Comparison(mission=kept.name, t=kept.t, dives=dives, reason=reason)
+
+
+def _predicted(station: Station, kept: KeptMission, job: str | None) -> list[dict[str, Any]] | None:
+    result = kept.preview if job is None else station.previews.job(job)["result"]
+    return None if result is None else list(result["dives"])
+
+
+def _compared(row: ComparedDive) -> Compared:
+    difference = None if row.difference is None else row.difference._asdict()
+    return Compared.model_validate(row._asdict() | {"difference": difference})
+
+
+def _plan(station: Station, body: PlanBody) -> StationPlan:
+    """The plan of a request, with what the station knows filled in."""
+    number = body.vehicle
+    if number is not None:
+        _require(station, number)
+    return resolved(
+        plan_from(body.plan),
+        now=station.now(number),
+        vehicles=_vehicles(station),
+        model=None if number is None else _model(station, number),
+        current=None if number is None else current_of_last_dive(station.archive, number),
+    )
+
+
+def _model(station: Station, vehicle: int) -> str:
+    return station.vehicles[vehicle].settings.model
+
+
+def _vehicles(station: Station) -> list[str]:
+    own = (line.settings.model for line in station.vehicles.values())
+    return sorted({*builtin_names(), *own})
+
+
+def _require(station: Station, vehicle: int) -> None:
+    if vehicle not in station.vehicles:
+        raise refusal(404, f"there is no vehicle {vehicle} at this station", key="vehicle", value=vehicle)
+
+
+def _place(station: Station, vehicle: int) -> Place | None:
+    """Where the vehicle is; None if it is not known."""
+    position = station.summary(vehicle).get("position")
+    return None if position is None else Place(position["latitude"], position["longitude"])
+
+
+def _around(station: Station, vehicle: int) -> dict[str, Any]:
+    """What orders do not hold: vehicle, start and water."""
+    here = _place(station, vehicle) or DEFAULT_START
+    return {"vehicle": _model(station, vehicle), "start": place_row(here), "water": {"ocean": ocean_at(here)}}

@@ -6,6 +6,7 @@ from stommel.station.web.routes import (
     alarms,
     commands,
     data,
+    layers,
     link,
     notes,
     parameters,
@@ -27,5 +28,6 @@ ROUTERS: tuple[APIRouter, ...] = (
     data.router,
     alarms.router,
     notes.router,
+    layers.router,
     plans.router,
 )

@@ -43,7 +43,7 @@ export const views: readonly View[] = [
   { name: 'files', title: 'Files', key: 'i', of: 'vehicle', load: () => import('./Pending.svelte') },
   { name: 'alarms', title: 'Alarms', key: 'a', of: 'vehicle', load: () => import('./alarms/Alarms.svelte') },
   { name: 'replay', title: 'Replay', key: 'r', of: 'vehicle', load: () => import('./replay/Replay.svelte') },
-  { name: 'log', title: 'Log', key: 'o', of: 'vehicle', load: () => import('./Pending.svelte') },
+  { name: 'log', title: 'Log', key: 'o', of: 'vehicle', load: () => import('./log/Log.svelte') },
 ];
 
 export function viewNamed(name: string): View | undefined {

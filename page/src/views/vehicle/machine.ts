@@ -13,18 +13,18 @@ export interface Edge {
   path: string;
 }
 
-export const WIDTH = 96;
+export const WIDTH = 90;
 export const HEIGHT = 26;
 
 /** Places of the states that the vehicle's software has; others find room below. */
 const PLACES: Record<string, [number, number]> = {
-  'start-up': [56, 22],
-  hold: [180, 22],
-  communicate: [56, 92],
-  mission: [180, 92],
-  ascend: [304, 92],
-  recover: [56, 162],
-  abort: [304, 162],
+  'start-up': [47, 20],
+  hold: [180, 20],
+  communicate: [47, 96],
+  mission: [180, 96],
+  ascend: [313, 96],
+  recover: [47, 172],
+  abort: [313, 172],
 };
 
 export function placed(names: string[]): Node[] {
@@ -33,7 +33,7 @@ export function placed(names: string[]): Node[] {
     const place = PLACES[name];
     if (place) return { name, x: place[0], y: place[1] };
     others += 1;
-    return { name, x: 56 + ((others - 1) % 3) * 124, y: 232 + Math.floor((others - 1) / 3) * 50 };
+    return { name, x: 47 + ((others - 1) % 3) * 133, y: 240 + Math.floor((others - 1) / 3) * 50 };
   });
 }
 
@@ -61,7 +61,7 @@ export function edges(nodes: Node[], transitions: readonly [string, string, stri
   return [...whens.values()].map(({ from, to, when }) => {
     const back = whens.has(`${to.name}>${from.name}`);
     const far = Math.hypot(to.x - from.x, to.y - from.y);
-    const bend = back ? 14 : far > 200 ? 22 : 0;
+    const bend = back ? 14 : far > 200 && to.y === from.y ? 66 : 0;
     const [mx, my] = [(from.x + to.x) / 2, (from.y + to.y) / 2];
     const [cx, cy] = [mx - ((to.y - from.y) / far) * bend, my + ((to.x - from.x) / far) * bend];
     const [sx, sy] = border(from, cx, cy);

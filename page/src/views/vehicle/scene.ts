@@ -233,8 +233,8 @@ export class GliderScene {
       context.fillStyle = main ? this.colours.accent : this.colours.soft;
       context.fillText(words, 32, 34);
     }
-    const sprite = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false }));
-    sprite.scale.setScalar(0.22);
+    const sprite = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false, sizeAttenuation: false }));
+    sprite.scale.setScalar(0.045);
     return sprite;
   }
 }

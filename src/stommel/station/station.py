@@ -14,6 +14,7 @@ from stommel.station.people.holders import Hold
 from stommel.station.people.people import People
 from stommel.station.preview.previews import Previews
 from stommel.station.settings import StationSettings, VehicleSettings
+from stommel.station.sole import hold_archive
 from stommel.station.vehicles.attached import VehicleNews
 from stommel.station.vehicles.commands import Commands
 from stommel.station.vehicles.line import VehicleLine
@@ -58,6 +59,7 @@ class Station:
             self._lock_folder()
             self.archive = Archive.open(settings.database_url)
             self._held.callback(self.archive.close)
+            hold_archive(self.archive, self._held)
             self.previews = Previews()
             self._held.callback(self.previews.close)
             self.people = People(self.archive, told=self._holder_changed)

@@ -6,6 +6,7 @@ from stommel.station.web.routes import (
     alarms,
     commands,
     data,
+    layers,
     link,
     missions,
     notes,
@@ -29,5 +30,6 @@ ROUTERS: tuple[APIRouter, ...] = (
     data.router,
     alarms.router,
     notes.router,
+    layers.router,
     plans.router,
 )

@@ -38,9 +38,9 @@ def test_the_mission_that_the_vehicle_holds_is_found_and_fetched(tmp_path: Path)
             client = Client(found)
             until(lambda: client.get("/vehicles/1/mission")["mission"])
             told = client.get("/vehicles/1/mission")
-            assert told["aboard"]["sha256"] == hashlib.sha256(ORDERS.encode()).hexdigest()
-            assert (told["mission"]["user"], told["mission"]["depth_m"]) == (None, 100.0)
-            assert told["mission"]["waypoints"][0]["latitude"] == pytest.approx(29.793, abs=1e-2)
+            assert told["sha256"] == hashlib.sha256(ORDERS.encode()).hexdigest()
+            assert (told["mission"]["user"], told["depth_m"]) == (None, 100.0)
+            assert told["waypoints"][0]["latitude"] == pytest.approx(29.793, abs=1e-2)
             assert states(found) == [("in memory", "aboard")]
             assert client.get(f"/vehicles/1/missions/{told['mission']['id']}")["orders"] == ORDERS
 
@@ -55,7 +55,7 @@ def test_a_mission_is_kept_with_who_and_hash_and_arrives_whole(tmp_path: Path) -
             assert row["sha256"] == hashlib.sha256(OTHER.encode()).hexdigest()
             until(lambda: ("Another way", "aboard") in states(found))
             assert vehicle.missions.files[-1] == OTHER.encode()
-            until(lambda: client.get("/vehicles/1/mission")["aboard"]["sha256"] == row["sha256"])
+            until(lambda: client.get("/vehicles/1/mission")["sha256"] == row["sha256"])
             steps = [each["state"] for each in client.get(f"/vehicles/1/missions/{row['id']}")["history"]]
             assert steps == ["waiting", "sending", "aboard"]
 
@@ -69,7 +69,7 @@ def test_roll_back_brings_the_mission_before_back(tmp_path: Path) -> None:
             with pytest.raises(MissionError, match="before the present"):
                 found.missions.roll_back(1, "ada", 600.0)
             upload(client, OTHER)
-            until(lambda: client.get("/vehicles/1/mission")["aboard"]["previous_sha256"])
+            until(lambda: client.get("/vehicles/1/mission")["previous_sha256"])
             client.post("/vehicles/1/mission/roll-back")
             until(lambda: vehicle.missions.files[-1] == ORDERS.encode())
             until(lambda: states(found) == [("Another way", "replaced"), ("in memory", "aboard")])

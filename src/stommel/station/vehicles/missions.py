@@ -98,16 +98,21 @@ class Missions:
             return task, follower.progress(line, t)._asdict() if is_upload else None
 
         task, progress = ask(line, look)
-        held = follower.held
+        held, missing = follower.held, follower.words or None
         row = None if held is None or not held.sha256 else self._rows.of_hash(vehicle, held.sha256.hex())
-        upload = None if task is None or task.row is None else told(task.row) | {"progress": progress}
+        upload = None if task is None or task.row is None else self.told(task.row) | {"progress": progress}
+        if held is not None and not held.sha256:
+            missing = "the vehicle holds no mission"
+        elif held is not None and row is None:
+            missing = missing or "its orders are being fetched"
+        flown = {"waypoints": [], "depth_m": None} if row is None else _flown(row)
         return {
-            "aboard": None if held is None else {
-                "number": held.number, "name": held.name, "sha256": held.sha256.hex(),
-                "previous_sha256": held.previous.hex(), "t": follower.held_at,
-            },
-            "words": follower.words, "waiting": follower.waiting, "upload": upload,
-            "mission": None if row is None else told(row) | _flown(row),
+            "number": None if held is None else held.number, "name": None if held is None else held.name or None,
+            "sha256": None if held is None else held.sha256.hex(),
+            "previous_sha256": None if held is None else held.previous.hex(),
+            "t": None if held is None else follower.held_at,
+            "missing": missing, "waiting": follower.waiting, "upload": upload,
+            "mission": None if row is None else self.told(row), **flown,
         }  # fmt: skip
 
     def list(self, vehicle: int, limit: int) -> Sequence[MissionRow]:
@@ -127,17 +132,19 @@ class Missions:
             raise MissingError(f"vehicle {vehicle} has no mission {id}")
         return row, self._rows.history(id)
 
+    def told(self, row: MissionRow) -> dict[str, Any]:
+        """A mission as lists of the API tell it."""
+        history = self._rows.history(row.id)
+        found = row._asdict() | {"words": history[-1].words if history else ""}
+        if history:
+            found["state"] = history[-1].state
+        del found["orders"], found["plan"]
+        return found
+
     def _tell(self, vehicle: int, id: int | None) -> None:
         row = None if id is None else self._rows.find(vehicle, id)
-        data = {"aboard": True} if row is None else told(row)
+        data = {"aboard": True} if row is None else self.told(row)
         self._hub.publish(Happening("mission", vehicle, data))
-
-
-def told(row: MissionRow) -> dict[str, Any]:
-    """A mission as lists of the API tell it."""
-    found = row._asdict()
-    del found["orders"], found["plan"]
-    return found
 
 
 def _flown(row: MissionRow) -> dict[str, Any]:
@@ -145,9 +152,12 @@ def _flown(row: MissionRow) -> dict[str, Any]:
     try:
         orders, _ = parse_orders(row.orders, "orders")
     except StommelError as error:
-        return {"waypoints": [], "depth_m": None, "reason": f"its orders cannot be read here: {error}"[:300]}
+        return {"waypoints": [], "depth_m": None, "missing": f"its orders cannot be read here: {error}"[:300]}
     places = [
-        {"latitude": degrees(float(latitude)), "longitude": degrees(float(longitude))}
+        {
+            "latitude": degrees(float(latitude)), "longitude": degrees(float(longitude)),
+            "radius_m": float(orders.radius),
+        }
         for latitude, longitude in orders.waypoints
-    ]
-    return {"waypoints": places, "depth_m": float(orders.dives.depth), "reason": ""}
+    ]  # fmt: skip
+    return {"waypoints": places, "depth_m": float(orders.dives.depth)}

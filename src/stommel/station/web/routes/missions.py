@@ -11,7 +11,6 @@ from stommel.station.planner.problems import plan_from
 from stommel.station.planner.resolving import resolved
 from stommel.station.station import Station
 from stommel.station.vehicles.line import VehicleLine
-from stommel.station.vehicles.missions import told
 from stommel.station.web.access import Holder, Viewer
 from stommel.station.web.found import Line, TheStation
 from stommel.vehicle import builtin_names
@@ -35,6 +34,8 @@ class Mission(BaseModel):
     sha256: str
     state: str
     """waiting, sending, aboard, replaced, refused, failed or interrupted."""
+    words: str
+    """Why, or what was last told of it."""
 
 
 class MissionStep(BaseModel):
@@ -54,29 +55,12 @@ class MissionDetail(Mission):
     history: list[MissionStep]
 
 
-class Place(BaseModel):
-    """A waypoint [deg]."""
+class Waypoint(BaseModel):
+    """A waypoint [deg], and within which distance it is reached."""
 
     latitude: float
     longitude: float
-
-
-class FlownMission(Mission):
-    """The mission that the vehicle holds."""
-
-    waypoints: list[Place]
-    depth_m: float | None
-    reason: str
-
-
-class HeldMission(BaseModel):
-    """What the vehicle says that it holds; hashes are empty for none."""
-
-    number: int
-    name: str
-    sha256: str
-    previous_sha256: str
-    t: float
+    radius_m: float
 
 
 class UploadProgress(BaseModel):
@@ -94,16 +78,25 @@ class MissionOnItsWay(Mission):
 
 
 class MissionAboard(BaseModel):
-    """Which mission a vehicle holds, and what is on its way."""
+    """Which mission a vehicle holds, and what is on its way; null where that is not known."""
 
-    aboard: HeldMission | None
-    words: str
-    """Why it is not known, or what the last request came to."""
+    number: int | None
+    name: str | None
+    sha256: str | None
+    """Empty for none."""
+    previous_sha256: str | None
+    """Of the mission before, to which it can be rolled back; empty for none."""
+    t: float | None
+    """When the vehicle said so [s since 1970]."""
+    missing: str | None
+    """Why something is not known, or what the last request came to."""
+    waypoints: list[Waypoint]
+    depth_m: float | None
+    mission: Mission | None
+    """Of these orders, where the station has them."""
+    upload: MissionOnItsWay | None
     waiting: int
     """Requests about missions that are not over."""
-    upload: MissionOnItsWay | None
-    mission: FlownMission | None
-    """Of these orders, where the station has them."""
 
 
 class NewMission(BaseModel):
@@ -114,7 +107,9 @@ class NewMission(BaseModel):
     orders: Annotated[str, Field(min_length=1, max_length=MOST_ORDERS)] | None = None
     plan: dict[str, Any] | None = None
     job: Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[0-9a-f]+$")] | None = None
-    """Preview of the plan, which is kept to compare."""
+    """Preview of the plan, whose result is kept to compare."""
+    preview: dict[str, Any] | None = None
+    """What a preview told, in place of `job`."""
     valid_for_s: Validity = USUAL
 
     @model_validator(mode="after")
@@ -137,7 +132,7 @@ def list_missions(
     _user: Viewer, line: Line, station: TheStation, limit: Annotated[int, Query(ge=1, le=500)] = 100
 ) -> list[Mission]:
     """Return the last missions of a vehicle, the newest first."""
-    return [Mission.model_validate(told(row)) for row in station.missions.list(line.vehicle, limit)]
+    return [Mission.model_validate(station.missions.told(row)) for row in station.missions.list(line.vehicle, limit)]
 
 
 @router.get("/vehicles/{vehicle}/missions/{id}")
@@ -146,7 +141,8 @@ def show_mission(
 ) -> MissionDetail:
     """Return a mission with its orders, and what became of it."""
     row, history = station.missions.find(line.vehicle, id)
-    return MissionDetail.model_validate(row._asdict() | {"history": [each._asdict() for each in history]})
+    whole = station.missions.told(row) | {"orders": row.orders, "plan": row.plan}
+    return MissionDetail.model_validate(whole | {"history": [each._asdict() for each in history]})
 
 
 @router.get("/vehicles/{vehicle}/mission")
@@ -162,11 +158,11 @@ def upload_mission(user: Holder, line: Line, station: TheStation, new: NewMissio
     if plan is not None:
         made = _resolved(station, line, plan)
         plan, orders = made.model_dump(mode="json", exclude_none=True), station.previews.orders(made)
-    preview = None if new.job is None else station.previews.job(new.job).get("result")
+    preview = new.preview if new.job is None else station.previews.job(new.job).get("result")
     row = station.missions.upload(
         line.vehicle, user.name, orders, plan=plan, preview=preview, valid_for_s=new.valid_for_s
     )  # fmt: skip
-    return Mission.model_validate(told(row))
+    return Mission.model_validate(station.missions.told(row))
 
 
 @router.post("/vehicles/{vehicle}/mission/roll-back", status_code=202)

@@ -18,6 +18,7 @@ from stommel.station.sole import hold_archive
 from stommel.station.vehicles.attached import VehicleNews
 from stommel.station.vehicles.commands import Commands
 from stommel.station.vehicles.line import VehicleLine
+from stommel.station.vehicles.missions import Missions
 from stommel.station.vehicles.opening import VehicleError
 from stommel.station.vehicles.parameters import Parameters
 from stommel.station.watching import alarms_of, open_alarms, watch
@@ -65,6 +66,7 @@ class Station:
             self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
             self.commands = Commands(self.archive, self.hub, self.vehicles)
             self.parameters = Parameters(self.archive, self.hub, self.vehicles)
+            self.missions = Missions(self.archive, self.hub, self.vehicles)
             for vehicle in settings.vehicles:
                 self._attach(vehicle)
         except BaseException:
@@ -119,6 +121,7 @@ class Station:
         line.followers.append(news)
         self.commands.follow(line)
         self.parameters.follow(line)
+        self.missions.follow(line)
         self.vehicles[number], self.news[number] = line, news
         self._holders[number] = self.people.holders.of(number)
         watch(self.alarms, line, lambda: self.summary(number))

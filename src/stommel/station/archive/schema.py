@@ -111,7 +111,7 @@ def _cells(name: str, number: str) -> Table:
 
 
 minutes = _cells("minutes", "minute")
-hours = _cells("hours", "hour")
+ten_minutes = _cells("ten_minutes", "ten")
 
 texts = Table(
     "texts",

@@ -35,7 +35,6 @@ export const views: readonly View[] = [
   { name: 'plan', title: 'Plan', key: 'n', of: 'vehicle', load: () => import('./planner/Planner.svelte') },
   { name: 'link', title: 'Link', key: 'l', of: 'vehicle', load: () => import('./link/Link.svelte') },
   { name: 'files', title: 'Files', key: 'i', of: 'vehicle', load: () => import('./files/Files.svelte') },
-  { name: 'data', title: 'Data', key: 'd', of: 'vehicle', load: () => import('./data/Data.svelte') },
   { name: 'alarms', title: 'Alarms', key: 'a', of: 'vehicle', load: () => import('./alarms/Alarms.svelte') },
   { name: 'replay', title: 'Replay', key: 'r', of: 'vehicle', load: () => import('./replay/Replay.svelte') },
   { name: 'log', title: 'Log', key: 'o', of: 'vehicle', load: () => import('./log/Log.svelte') },

@@ -17,6 +17,7 @@ from stommel.station.settings import StationSettings, VehicleSettings
 from stommel.station.sole import hold_archive
 from stommel.station.vehicles.attached import VehicleNews
 from stommel.station.vehicles.commands import Commands
+from stommel.station.vehicles.files import Files
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.missions import Missions
 from stommel.station.vehicles.opening import VehicleError
@@ -67,6 +68,7 @@ class Station:
             self.commands = Commands(self.archive, self.hub, self.vehicles)
             self.parameters = Parameters(self.archive, self.hub, self.vehicles)
             self.missions = Missions(self.archive, self.hub, self.vehicles)
+            self.files = Files(self.archive, self.hub, self.vehicles, settings.folder)
             for vehicle in settings.vehicles:
                 self._attach(vehicle)
         except BaseException:
@@ -122,6 +124,7 @@ class Station:
         self.commands.follow(line)
         self.parameters.follow(line)
         self.missions.follow(line)
+        self.files.follow(line)
         self.vehicles[number], self.news[number] = line, news
         self._holders[number] = self.people.holders.of(number)
         watch(self.alarms, line, lambda: self.summary(number))

@@ -8,11 +8,11 @@ from stommel.station.web.routes import (
     data,
     layers,
     link,
-    people,
-    series,
     notes,
     people,
     plans,
+    replays,
+    series,
     station,
     vehicles,
 )
@@ -28,5 +28,6 @@ ROUTERS: tuple[APIRouter, ...] = (
     alarms.router,
     notes.router,
     layers.router,
+    replays.router,
     plans.router,
 )

@@ -13,6 +13,7 @@ from stommel.station.live.hub import Hub
 from stommel.station.people.holders import Hold
 from stommel.station.people.people import People
 from stommel.station.preview.previews import Previews
+from stommel.station.replay.replays import Replays
 from stommel.station.settings import StationSettings, VehicleSettings
 from stommel.station.sole import hold_archive
 from stommel.station.vehicles.attached import VehicleNews
@@ -64,6 +65,8 @@ class Station:
             self.previews = Previews()
             self._held.callback(self.previews.close)
             self.people = People(self.archive, told=self._holder_changed)
+            self.replays = Replays(self.archive, self.hub)
+            self._held.callback(self.replays.stop)
             self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
             self.commands = Commands(self.archive, self.hub, self.vehicles)
             self.parameters = Parameters(self.archive, self.hub, self.vehicles)

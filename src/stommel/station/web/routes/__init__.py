@@ -14,6 +14,7 @@ from stommel.station.web.routes import (
     parameters,
     people,
     plans,
+    replays,
     series,
     station,
     vehicles,
@@ -33,5 +34,6 @@ ROUTERS: tuple[APIRouter, ...] = (
     alarms.router,
     notes.router,
     layers.router,
+    replays.router,
     plans.router,
 )

@@ -42,7 +42,7 @@ def test_netcdf_reads_back_the_same(trajectory: xr.Dataset, tmp_path: Path) -> N
 
 
 def test_it_is_a_trajectory_of_cf(trajectory: xr.Dataset) -> None:
-    """CF 1.10, chapter 9: featureType, cf_role, coordinates; every variable has a unit or says what its numbers mean."""
+    """CF 1.10, chapter 9: featureType, cf_role, coordinates; each variable says what its numbers mean."""
     assert trajectory.attrs["featureType"] == "trajectory"
     assert trajectory["trajectory"].attrs["cf_role"] == "trajectory_id"
     assert {"time", "depth", "latitude", "longitude"} <= set(trajectory.coords)

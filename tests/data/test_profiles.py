@@ -1,4 +1,6 @@
-"""Oracles: dives that are made here, so that each profile is known; real flights of a Slocum; properties of numbering."""
+"""Oracles: dives that are made here, so that each profile is known; a real flight of a Slocum; properties."""
+
+import itertools
 
 import numpy as np
 import pytest
@@ -17,7 +19,7 @@ BEGIN = 1_782_864_000.0
 def sawtooth(depths: list[float], rate: float = 0.2, wait: int = 0) -> NDArray[np.float64]:
     """Pressures at 1 Hz from one depth to the next, with waits at each."""
     parts = [np.full(wait + 1, depths[0])]
-    for low, high in zip(depths[:-1], depths[1:], strict=True):
+    for low, high in itertools.pairwise(depths):
         steps = max(2, int(abs(high - low) / rate))
         parts += [np.linspace(low, high, steps + 1)[1:], np.full(wait, high)]
     return np.concatenate(parts)
@@ -142,7 +144,7 @@ def test_turning_points_alternate_and_change_enough(p: NDArray[np.float64]) -> N
 @given(walks)
 def test_between_turning_points_nothing_comes_back_by_so_much(p: NDArray[np.float64]) -> None:
     turns = turning_points(p, 3.0)
-    for begin, end in zip(turns[:-1], turns[1:], strict=True):
+    for begin, end in itertools.pairwise(turns):
         way = (p[begin : end + 1] - p[begin]) * np.sign(p[end] - p[begin])
         assert (np.maximum.accumulate(way) - way).max() < 3.0
         assert way.min() == 0.0
@@ -165,7 +167,7 @@ def test_the_way_back_in_time_is_the_same_with_other_directions(p: NDArray[np.fl
 @given(walks)
 def test_each_sample_is_in_one_profile_at_most(p: NDArray[np.float64]) -> None:
     found = profiles_of(seconds_of(p), p)
-    for one, next_ in zip(found[:-1], found[1:], strict=True):
+    for one, next_ in itertools.pairwise(found):
         assert one.first < one.last <= next_.first
     assert [each.number for each in found] == list(range(len(found)))
 

@@ -92,7 +92,7 @@ def browser() -> "Iterator[object]":
 
 @pytest.fixture
 def page(browser, request: pytest.FixtureRequest):
-    """A page of a browser that has seen the tour; what it throws fails the test. Options of the context by parameter."""
+    """A page whose browser has seen the tour; what it throws fails the test. Options of the context by parameter."""
     options = getattr(request, "param", {})
     context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce", **options})
     context.add_init_script("localStorage.setItem('stommel.tour', 'done')")

@@ -2,10 +2,8 @@
 
 import asyncio
 import threading
-from collections.abc import AsyncIterator, Iterator, Mapping, Sequence
+from collections.abc import AsyncIterator, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import httpx
@@ -13,8 +11,6 @@ import uvicorn
 from fastapi import FastAPI
 
 from stommel.errors import StommelError
-from stommel.station.archive import Archive
-from stommel.station.people.people import People
 
 PASSWORD = "a long way to the sea"
 
@@ -55,24 +51,6 @@ class StandInHub:
 
     def watch(self) -> StandInReader:
         return self.subscribe("", 1, ())
-
-
-class StandInStation:
-    """People and an archive, and a vehicle that says nothing."""
-
-    def __init__(self, folder: Path) -> None:
-        self.settings = SimpleNamespace(name="Pier 3", demo=False, folder=folder)
-        self.archive = Archive.open(f"sqlite:///{folder / 'archive.sqlite'}")
-        self.hub = StandInHub()
-        self.vehicles: dict[int, Any] = {1: SimpleNamespace()}
-        self.told: list[Any] = []
-        self.people = People(self.archive, told=lambda vehicle, hold: self.told.append((vehicle, hold)))
-
-    def summary(self, vehicle: int) -> Mapping[str, Any]:
-        return {"vehicle": vehicle, "depth": float("nan")}
-
-    def close(self) -> None:
-        self.archive.close()
 
 
 @contextmanager

@@ -75,6 +75,13 @@ class StationSettings(_Table):
     certificate: Path | None = None
     key_file: Path | None = None
     behind_proxy: Flag = False
+    """A proxy in front serves TLS, and says so in X-Forwarded-Proto."""
+    proxies: Annotated[tuple[Text, ...], Field(max_length=20)] = ("127.0.0.1", "::1")
+    """Addresses of the proxy, whose X-Forwarded-For and X-Forwarded-Proto are believed."""
+    login: Flag = False
+    """Whether people log in at the station's own machine too."""
+    known_as: Annotated[tuple[Text, ...], Field(max_length=20)] = ()
+    """Names by which browsers ask for it; none allows any, where people log in."""
     address: Annotated[str, Field(max_length=500, pattern=PRINTABLE)] = ""
     """Of the page as people reach it; stands in alerts."""
     demo: Flag = False
@@ -125,6 +132,13 @@ def _from_file(document: dict[str, Any], folder: Path) -> None:
     for key in ("folder", "certificate", "key_file"):
         if isinstance(document.get(key), str):
             document[key] = folder / document[key]
+    alerts = document.get("alerts")
+    if isinstance(alerts, dict):
+        webhooks = alerts.get("webhooks")
+        for way in (alerts.get("email"), *(webhooks if isinstance(webhooks, list) else ())):
+            for key in ("password_file", "secret_file", "ca_file"):
+                if isinstance(way, dict) and isinstance(way.get(key), str):
+                    way[key] = folder / way[key]
     vehicles = document.get("vehicles")
     for vehicle in vehicles if isinstance(vehicles, list) else ():
         if isinstance(vehicle, dict) and isinstance(vehicle.get("key"), str):

@@ -1,6 +1,7 @@
 """How the alarms of a station come to know what its vehicles bring."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from functools import cache
 from typing import Any
 
 from stommel.errors import StommelError
@@ -8,13 +9,15 @@ from stommel.station.alarms.alert_words import Sender
 from stommel.station.alarms.contact_watch import Contact
 from stommel.station.alarms.defaults import default_limits
 from stommel.station.alarms.limits import ChannelWords
-from stommel.station.alarms.station_alarms import StationAlarms
+from stommel.station.alarms.severity import RANK
+from stommel.station.alarms.station_alarms import ARCHIVE_FAILING, StationAlarms
 from stommel.station.archive import Archive
 from stommel.station.channels import channel_named
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.settings import StationSettings
 from stommel.station.vehicles.line import VehicleLine
+from stommel.station.vehicles.summary import AT_SURFACE
 from stommel.vehicle import Vehicle, load_vehicle
 
 
@@ -28,17 +31,39 @@ def alarms_of(settings: StationSettings, archive: Archive, hub: Hub, title: Call
 
 
 def watch(alarms: StationAlarms, line: VehicleLine, summary: Callable[[], dict[str, Any]]) -> None:
-    """Let the alarms watch a vehicle."""
+    """Let the alarms watch a vehicle, with the limits of its file until somebody sets others.
 
-    def contact() -> Contact:
-        told = summary()
-        expected = None if told["heard"] or told["next_surfacing"] is None else told["next_surfacing"]["t"]
-        status = line.status()
-        return Contact(told["last_contact"], expected, "" if status.is_open else status.reason)
+    Raises
+    ------
+    ArchiveError
+        The archive fails.
+    """
+
+    def contact() -> Contact | None:
+        alarms.report(ARCHIVE_FAILING, f"vehicle {line.vehicle}", line.status().archive)
+        return contact_of(summary()) if line.clock.is_set else None
 
     alarms.watch(line.vehicle, line.clock.now, contact, default_limits(file_of(line.settings.model)))
 
 
+def contact_of(summary: Mapping[str, Any]) -> Contact:
+    """When a vehicle was heard, and when it shall be heard next, from its summary."""
+    expected, phase = summary["next_surfacing"], summary["phase"]
+    return Contact(
+        heard=summary["last_contact"],
+        expected=None if expected is None else expected["t"],
+        is_diving=phase is not None and phase not in AT_SURFACE,
+        trouble=summary["link_reason"],
+    )
+
+
+def open_alarms(alarms: StationAlarms, vehicle: int) -> list[dict[str, str]]:
+    """Open alarms of a vehicle as its summary tells them, the worst first."""
+    found = sorted(alarms.open_of(vehicle), key=lambda alarm: -RANK[alarm.severity])
+    return [{"key": alarm.key, "words": alarm.words, "severity": alarm.severity} for alarm in found]
+
+
+@cache
 def file_of(model: str) -> Vehicle | None:
     """The vehicle file of a vehicle; None where there is none."""
     try:

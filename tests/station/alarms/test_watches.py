@@ -120,7 +120,7 @@ def contacts(watch: ContactWatch, *looks: tuple[float, Contact]) -> list[tuple[s
 
 
 def test_a_surfacing_is_missed_after_its_margin_and_ends_when_the_vehicle_is_heard() -> None:
-    watch = ContactWatch(margin=900.0, longest_silence=600.0)
+    watch = ContactWatch(900.0, 600.0, 43_200.0)
     told = contacts(
         watch,
         (1000.0, Contact(heard=1000.0)),
@@ -134,13 +134,13 @@ def test_a_surfacing_is_missed_after_its_margin_and_ends_when_the_vehicle_is_hea
 
 
 def test_an_expectation_that_is_put_off_while_nobody_hears_moves_nothing() -> None:
-    watch = ContactWatch(margin=100.0, longest_silence=600.0)
+    watch = ContactWatch(100.0, 600.0, 43_200.0)
     looks = [(float(now), Contact(heard=0.0, expected=now + 3000.0)) for now in range(0, 7000, 100)]
     assert contacts(watch, *looks) == [(SURFACING_MISSED, True, 3200.0)]
 
 
 def test_a_silence_that_no_dive_explains_is_a_silent_link() -> None:
-    watch = ContactWatch(margin=900.0, longest_silence=600.0)
+    watch = ContactWatch(900.0, 600.0, 43_200.0)
     assert contacts(watch, (0.0, Contact()), (600.0, Contact())) == []
     (raised,) = watch.look(601.0, Contact(trouble="connection refused"))
     assert (raised.key, raised.raised) == (LINK_SILENT, True)
@@ -151,13 +151,21 @@ def test_a_silence_that_no_dive_explains_is_a_silent_link() -> None:
 
 
 def test_a_dive_is_no_silent_link() -> None:
-    watch = ContactWatch(margin=900.0, longest_silence=600.0)
+    watch = ContactWatch(900.0, 600.0, 43_200.0)
     looks = [(float(now), Contact(heard=0.0, expected=7200.0)) for now in range(0, 8100, 60)]
     assert contacts(watch, *looks) == []
 
 
 def test_a_missed_surfacing_from_before_a_restart_is_not_told_twice() -> None:
-    watch = ContactWatch(900.0, 600.0, frozenset({SURFACING_MISSED}))
+    watch = ContactWatch(900.0, 600.0, 43_200.0, frozenset({SURFACING_MISSED}))
     overdue = Contact(heard=100.0, expected=2000.0)
     assert contacts(watch, (9000.0, overdue), (9001.0, overdue)) == []
     assert contacts(watch, (9100.0, Contact(heard=9099.0))) == [(SURFACING_MISSED, False, 9099.0)]
+
+
+def test_a_first_dive_whose_end_nobody_knows_is_silent_for_longer() -> None:
+    watch = ContactWatch(900.0, 600.0, 7200.0)
+    dive = Contact(heard=0.0, is_diving=True)
+    assert contacts(watch, *((float(now), dive) for now in range(0, 7201, 60))) == []
+    (raised,) = watch.look(7201.0, dive)
+    assert raised.words == "Nothing heard for 120 min and its dive should have ended"

@@ -156,9 +156,13 @@ def test_nothing_is_read_of_what_is_still_being_written(archive: Archive) -> Non
 
 
 def test_an_exception_in_the_middle_of_writing_rolls_back(archive: Archive) -> None:
-    with pytest.raises(ZeroDivisionError), archive.writing() as connection:
-        connection.execute(channels.insert().values(key="x"))
-        raise ZeroDivisionError
+    def fail() -> None:
+        with archive.writing() as connection:
+            connection.execute(channels.insert().values(key="x"))
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
     assert rows_of_all_tables(archive)["channels"] == 0
 
 

@@ -7,27 +7,29 @@ import httpx
 import pytest
 
 from stommel.station.people.roles import Role
+from stommel.station.station import Station
 from stommel.station.web.app import create_app
 from stommel.station.web.exposure import Exposure
-from tests.support.station_served import PASSWORD, StandInStation, logged_in, served
+from tests.station.stations import station as silent_station
+from tests.support.station_served import PASSWORD, logged_in, served
 
 
 @pytest.fixture
-def station(tmp_path: Path) -> Iterator[StandInStation]:
-    station = StandInStation(tmp_path)
-    yield station
-    station.close()
+def station(tmp_path: Path) -> Iterator[Station]:
+    """A station with vehicle 1, whose radio is silent."""
+    with silent_station(tmp_path, "tcp:127.0.0.1:9", start=False, name="Pier 3") as station:
+        yield station
 
 
 @pytest.fixture
-def local(station: StandInStation) -> Iterator[httpx.Client]:
+def local(station: Station) -> Iterator[httpx.Client]:
     """At the station's own machine: nobody logs in."""
     with served(create_app(station)) as address, httpx.Client(base_url=address) as client:
         yield client
 
 
 @pytest.fixture
-def address(station: StandInStation) -> Iterator[str]:
+def address(station: Station) -> Iterator[str]:
     """Where people log in: vera views, paul and pia fly, ada looks after the station."""
     for name, role in (("vera", Role.VIEWER), ("paul", Role.PILOT), ("pia", Role.PILOT), ("ada", Role.ADMIN)):
         station.people.users.add(name, PASSWORD, role)

@@ -10,19 +10,18 @@ export interface CommandParameter {
 }
 
 export interface CommandType {
-  number: number;
   name: string;
   words: string;
   parameters: CommandParameter[];
   confirm: string;
 }
 
-export type When = 'at once' | 'at next surfacing' | 'until expiry';
+export type When = 'at_once' | 'at_next_surfacing' | 'until_expiry';
 
 export interface CommandChange {
   t: number;
   state: string;
-  words: string | null;
+  words: string;
 }
 
 export interface CommandRow {
@@ -33,10 +32,14 @@ export interface CommandRow {
   expires: number;
   name: string;
   parameters: Record<string, number>;
+  when: When;
   state: string;
-  outcome: string | null;
+  /** Why, and what is known. */
+  words: string;
   changed: number;
-  percent?: number | null;
+  /** Whether nothing comes after this state. */
+  is_last: boolean;
+  percent: number | null;
   history?: CommandChange[];
 }
 
@@ -61,6 +64,7 @@ const TONES: Record<string, Tone> = {
   cancelled: '',
   'outcome unknown': 'caution',
   forgotten: 'caution',
+  'not sent': 'warning',
 };
 
 /** Colour group of a state. */
@@ -71,13 +75,6 @@ export function toneOf(state: string): Tone {
 /** A state without the underscores that it may have on its way. */
 export function plainState(state: string): string {
   return state.toLowerCase().replaceAll('_', ' ');
-}
-
-const LAST = new Set(['done', 'failed', 'refused', 'expired', 'cancelled', 'outcome unknown', 'forgotten']);
-
-/** Whether nothing more will become of a command. */
-export function isOver(row: CommandRow): boolean {
-  return LAST.has(plainState(row.state));
 }
 
 /** What is wrong with what was typed for a parameter, in words; empty if nothing is. */
@@ -112,6 +109,8 @@ export interface Validity {
   words: string;
 }
 
+export const USUAL_S = 12 * 3600;
+
 /** How long a command may wait for its execution. */
 export const VALIDITIES: Validity[] = [
   { seconds: 600, words: '10 minutes' },
@@ -125,16 +124,16 @@ export const VALIDITIES: Validity[] = [
 
 export const WHENS: { when: When; words: string; meaning: string }[] = [
   {
-    when: 'until expiry',
+    when: 'until_expiry',
     words: 'As soon as it can',
     meaning: 'as soon as the vehicle can, until the command expires',
   },
   {
-    when: 'at next surfacing',
+    when: 'at_next_surfacing',
     words: 'At the next surfacing',
     meaning: 'after the dive that follows, or in which it arrives',
   },
-  { when: 'at once', words: 'At once or not at all', meaning: 'as it arrives, or not at all' },
+  { when: 'at_once', words: 'At once or not at all', meaning: 'as it arrives, or not at all' },
 ];
 
 /** A length of time that counts down, such as "2 h 05 min" or "14 s". */
@@ -163,14 +162,15 @@ export function parametersWords(row: CommandRow, kind: CommandType | undefined):
     .join(', ');
 }
 
-/** Steps on the way of a command, for the little row of lamps: how many of them it has passed. */
-export const STEPS = ['kept ashore', 'sent', 'aboard', 'done'];
+/** Steps on the way of a command. */
+export const STEPS = ['written down', 'sent', 'aboard', 'answered'];
 
+/** How many steps it has passed. */
 export function stepOf(row: CommandRow): number {
+  if (row.is_last) return 4;
   const state = plainState(row.state);
-  if (LAST.has(state)) return 4;
   if (state === 'waiting' || state === 'in progress' || state === 'received') return 3;
-  return row.outcome?.startsWith('not sent') || state === 'kept' || state === 'given' ? 1 : 2;
+  return state === 'given' || row.words.startsWith('not sent') ? 1 : 2;
 }
 
 /** Commands by what a pilot reaches for: what moves the vehicle, then upkeep. */
@@ -194,12 +194,12 @@ export function grouped(types: CommandType[]): { title: string; types: CommandTy
 
 /** What is known of an open command, in words. */
 export function stateWords(row: CommandRow): string {
-  return row.outcome || plainState(row.state);
+  return row.words || plainState(row.state);
 }
 
 /** All that was said of a command, first to last. */
 export function changesOf(row: CommandRow): CommandChange[] {
-  return row.history ?? [{ t: row.changed, state: row.state, words: row.outcome }];
+  return row.history ?? [{ t: row.changed, state: row.state, words: row.words }];
 }
 
 /** The rows with one that is new or has changed; newest first. */

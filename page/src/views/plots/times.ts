@@ -15,18 +15,16 @@ export function fromField(text: string): number | null {
 
 const MONTHS = ['Jan', 'Feb', 'Mar', 'Apr', 'May', 'Jun', 'Jul', 'Aug', 'Sep', 'Oct', 'Nov', 'Dec'];
 
-/** Labels of the ticks of a time axis; the date stands below the first one and wherever the day changes. */
+/** Labels of the ticks of a time axis; at midnight stands the day instead of 00:00. */
 export function tickWords(ticks: readonly number[], increment: number): string[] {
-  let before = '';
   return ticks.map((t) => {
     const date = new Date(Math.round(t * 1000));
     const day = `${date.getUTCDate()} ${MONTHS[date.getUTCMonth()]}`;
-    const changed = day !== before;
-    before = day;
-    if (increment >= 86400) return increment >= 28 * 86400 ? `${MONTHS[date.getUTCMonth()]}\n${date.getUTCFullYear()}` : day;
+    if (increment >= 28 * 86400) return `${MONTHS[date.getUTCMonth()]} ${date.getUTCFullYear()}`;
+    if (increment >= 86400 || t % 86400 === 0) return day;
     const minutes = `${pad(date.getUTCHours())}:${pad(date.getUTCMinutes())}`;
     const seconds = increment < 60 ? `:${pad(date.getUTCSeconds())}` : '';
-    const part = increment < 1 ? `.${Math.floor(date.getUTCMilliseconds() / 100)}` : '';
-    return `${minutes}${seconds}${part}${changed ? `\n${day}` : ''}`;
+    const part = increment < 1 ? `.${String(date.getUTCMilliseconds()).padStart(3, '0').slice(0, increment < 0.1 ? 3 : 1)}` : '';
+    return `${minutes}${seconds}${part}`;
   });
 }

@@ -5,7 +5,12 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
+from stommel.cli.station.backup import backup
+from stommel.cli.station.check import check, migrate
+from stommel.cli.station.export import export
 from stommel.cli.station.serve import serve
+from stommel.cli.station.token import token_app
+from stommel.cli.station.user import user_app
 
 SERVE = "serve"
 """The verb that `stommel station --database ...` stands for."""
@@ -27,3 +32,7 @@ station_app = typer.Typer(
     help="The shore station: `stommel station --database ...` is short for `stommel station serve --database ...`.",
 )
 station_app.command(SERVE)(serve)
+for _verb in (backup, export, check, migrate):
+    station_app.command()(_verb)
+station_app.add_typer(user_app, name="user")
+station_app.add_typer(token_app, name="token")

@@ -103,3 +103,5 @@ class AlarmSettings(_Table):
     """For how long after the expected time a surfacing is not yet missed, by the vehicle's clock."""
     longest_silence_s: Annotated[float, Field(ge=10, le=604_800)] = 600.0
     """For how long a link may be silent without a dive that explains it, by the vehicle's clock."""
+    longest_dive_s: Annotated[float, Field(ge=60, le=2_592_000)] = 43_200.0
+    """For how long it may be silent in a dive whose end nobody knows, as the first one."""

@@ -17,6 +17,8 @@ class Contact(NamedTuple):
     """When it was heard last; None: never."""
     expected: float | None = None
     """When it shall be heard next; None: nobody knows, or it is heard now."""
+    is_diving: bool = False
+    """Whether it dives, as far as is known; when it shall be back is not always known."""
     trouble: str = ""
     """What is wrong with the transport."""
 
@@ -32,14 +34,16 @@ class ContactWatch:
     ----------
     margin
         For how long after the expected time a surfacing is not yet missed [s].
-    longest_silence
-        For how long a link may be silent without a dive [s].
+    longest_silence, longest_dive
+        For how long a link may be silent without a dive, and in a dive whose end nobody knows [s].
     open_keys
         Alarms that were raised before, as from before a restart.
     """
 
-    def __init__(self, margin: float, longest_silence: float, open_keys: frozenset[str] = frozenset()) -> None:
-        self._margin, self._longest = margin, longest_silence
+    def __init__(
+        self, margin: float, longest_silence: float, longest_dive: float, open_keys: frozenset[str] = frozenset()
+    ) -> None:
+        self._margin, self._longest, self._longest_dive = margin, longest_silence, longest_dive
         self._raised = open_keys & {SURFACING_MISSED, LINK_SILENT}
         self._heard: float | None = None
         self._expected: float | None = None
@@ -52,7 +56,7 @@ class ContactWatch:
         ended = self._heard_again(contact.heard) if contact.heard is not None else []
         if self._expected is None and contact.expected is not None:
             self._expected = contact.expected
-        return ended + self._missed(now) + self._silent(now, contact.trouble)
+        return ended + self._missed(now) + self._silent(now, contact)
 
     def _heard_again(self, heard: float) -> list[Change]:
         first, before = self._heard is None, self._heard
@@ -72,12 +76,15 @@ class ContactWatch:
         words = f"Surfacing missed, expected at {_utc(self._expected)}"
         return [Change(SURFACING_MISSED, True, now, None, words, "critical")]
 
-    def _silent(self, now: float, trouble: str) -> list[Change]:
+    def _silent(self, now: float, contact: Contact) -> list[Change]:
         since = self._begun if self._heard is None else self._heard
-        if self._expected is not None or self._raised or since is None or now - since <= self._longest:
+        longest = self._longest_dive if contact.is_diving else self._longest
+        if self._expected is not None or self._raised or since is None or now - since <= longest:
             return []
         self._raised |= {LINK_SILENT}
-        words = f"Nothing heard for {(now - since) / 60:.0f} min and no dive is known" + (trouble and f": {trouble}")
+        why = "its dive should have ended" if contact.is_diving else "no dive is known"
+        words = f"Nothing heard for {(now - since) / 60.0:.0f} min and {why}"
+        words += contact.trouble and f": {contact.trouble}"
         return [Change(LINK_SILENT, True, now, None, words, "warning")]
 
 

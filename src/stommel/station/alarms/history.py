@@ -14,6 +14,10 @@ from stommel.station.archive.times import microseconds, seconds
 class AlarmError(StommelError):
     """An alarm that is not there, or that somebody has acknowledged already."""
 
+    def __init__(self, words: str, *, is_known: bool) -> None:
+        super().__init__(words)
+        self.is_known = is_known
+
 
 class History:
     """The table of alarms."""
@@ -31,10 +35,13 @@ class History:
         vehicle: int | None = None,
         is_open: bool | None = None,
         is_acknowledged: bool | None = None,
-        before: tuple[float, int] | None = None,
+        before: int | None = None,
         limit: int = 200,
     ) -> list[Alarm]:
-        """Alarms, the newest first: of a vehicle, open or not, acknowledged or not, before a time and number."""
+        """Alarms, the newest first: of a vehicle, open or not, acknowledged or not, before the one of a number.
+
+        An alarm that is not there has none before it.
+        """
         query = select(table).order_by(table.c.raised_us.desc(), table.c.id.desc()).limit(limit)
         if vehicle is not None:
             query = query.where(table.c.vehicle_id == vehicle)
@@ -44,8 +51,8 @@ class History:
             told = table.c.acknowledged_us
             query = query.where(told.is_not(None) if is_acknowledged else told.is_(None))
         if before is not None:
-            t_us = microseconds(before[0])
-            query = query.where(or_(table.c.raised_us < t_us, and_(table.c.raised_us == t_us, table.c.id < before[1])))
+            last = select(table.c.raised_us).where(table.c.id == before).scalar_subquery()
+            query = query.where(or_(table.c.raised_us < last, and_(table.c.raised_us == last, table.c.id < before)))
         return self._found(query)
 
     def add(self, alarm: Alarm) -> int:
@@ -99,9 +106,9 @@ class History:
             ).rowcount
             row = connection.execute(select(table).where(table.c.id == number)).one_or_none()
         if row is None:
-            raise AlarmError(f"alarm {number}: there is none of that number")
+            raise AlarmError(f"alarm {number}: there is none of that number", is_known=False)
         if not done:
-            raise AlarmError(f"alarm {number}: {row.acknowledged_by} has acknowledged it already")
+            raise AlarmError(f"alarm {number}: {row.acknowledged_by} has acknowledged it already", is_known=True)
         return _alarm(row)
 
     def alarm(self, number: int) -> Alarm | None:

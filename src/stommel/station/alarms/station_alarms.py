@@ -20,6 +20,7 @@ from stommel.station.alarms.register import Register
 from stommel.station.alarms.severity import Severity
 from stommel.station.alarms.vehicle_watch import VehicleWatch
 from stommel.station.archive.archive import Archive
+from stommel.station.archive.times import as_kept
 
 ARCHIVE_FAILING, ALERTS_FAILING = "archive_failing", "alerts_failing"
 _WORDS: Mapping[str, tuple[str, Severity]] = {
@@ -36,7 +37,7 @@ Publish = Callable[[str, int | None, Mapping[str, Any]], None]
 class _Watched(NamedTuple):
     watch: VehicleWatch
     now: Callable[[], float]
-    contact: Callable[[], Contact]
+    contact: Callable[[], Contact | None]
 
 
 class StationAlarms:
@@ -82,7 +83,11 @@ class StationAlarms:
     # what is watched
 
     def watch(
-        self, vehicle: int, now: Callable[[], float], contact: Callable[[], Contact], defaults: Sequence[Limit] = ()
+        self,
+        vehicle: int,
+        now: Callable[[], float],
+        contact: Callable[[], Contact | None],
+        defaults: Sequence[Limit] = (),
     ) -> None:
         """Watch a vehicle that the archive knows.
 
@@ -93,7 +98,7 @@ class StationAlarms:
         now
             Its clock [s since 1970].
         contact
-            When it was heard, and when it shall be heard next.
+            When it was heard, and when it shall be heard next; None while its clock is not known.
         defaults
             Limits of channels that never had one.
 
@@ -104,9 +109,7 @@ class StationAlarms:
         """
         self._limits.add_new(vehicle, defaults, "vehicle file")
         open_keys = [alarm.key for alarm in self._register.open_of(vehicle)]
-        watch = VehicleWatch(
-            self._naming, self._settings.surfacing_margin_s, self._settings.longest_silence_s, open_keys
-        )
+        watch = VehicleWatch(self._naming, self._settings, open_keys)
         begun = watch.begin(self._limits.limits_of(vehicle), self._archive.latest(vehicle))
         self._watched[vehicle] = _Watched(watch, now, contact)
         self._register.put(vehicle, begun)
@@ -155,7 +158,10 @@ class StationAlarms:
 
     def _run(self) -> None:
         while not self._stopped.wait(_LOOK_S):
-            self.look()
+            try:
+                self.look()
+            except Exception:  # noqa: BLE001 - nobody would know that alarms have ended
+                _log.exception("alarms")
 
     def _tell(self, alarm: Alarm) -> None:
         self._publish("alarm", alarm.vehicle, alarm.as_row())
@@ -178,7 +184,8 @@ class StationAlarms:
         """
         alarm = self.history.alarm(number)
         watched = self._watched.get(alarm.vehicle) if alarm is not None and alarm.vehicle is not None else None
-        return self._register.acknowledge(number, user, note, time.time() if watched is None else watched.now())
+        now = time.time() if watched is None else watched.now()
+        return self._register.acknowledge(number, user, note, as_kept(now))
 
     def limits_of(self, vehicle: int) -> list[Limit]:
         """Limits of a vehicle, by channel."""

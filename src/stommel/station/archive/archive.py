@@ -115,6 +115,12 @@ class Archive:
             if not there:
                 upsert(connection, vehicles, [{"id": vehicle, "added_us": round(time.time() * 1e6), **row}])
 
+    def vehicles(self) -> dict[int, str]:
+        """Names of the vehicles that are known, by their numbers."""
+        with self.reading() as connection:
+            rows = connection.execute(select(vehicles.c.id, vehicles.c.name).order_by(vehicles.c.id))
+            return {row.id: row.name for row in rows}
+
     def store(self, vehicle: int, batch: Batch) -> None:
         """Write what a vehicle sent, all of it or nothing; a sample at a known time replaces what was there.
 

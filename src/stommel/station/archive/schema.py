@@ -274,6 +274,7 @@ notes = Table(
     _id(),
     _vehicle(nullable=True),
     Column("t_us", BigInteger, nullable=False),
+    Column("written_us", BigInteger, nullable=False),  # by the station's clock; t_us may be any time before
     Column("user", String, nullable=False),
     Column("words", Text, nullable=False),
     Index("ix_notes_vehicle_id_t_us", "vehicle_id", "t_us"),

@@ -44,12 +44,20 @@ class Users:
         with self._archive.reading() as connection:
             return [_person(row) for row in connection.execute(select(users).order_by(users.c.name))]
 
-    def count(self) -> int:
-        """How many may log in."""
+    def admins(self) -> int:
+        """How many may log in and look after the station."""
+        return sum(_looks_after(person) for person in self.everybody())
+
+    def require(self, name: str) -> Person:
+        """Somebody of that name.
+
+        Raises
+        ------
+        UnknownPersonError
+            There is nobody.
+        """
         with self._archive.reading() as connection:
-            return connection.execute(
-                select(func.count()).select_from(users).where(users.c.disabled.is_(False))
-            ).scalar_one()
+            return _must_be_there(connection, spelled(name))
 
     def known(self, name: str) -> tuple[Person, str] | None:
         """Somebody and the hash of the password; nothing if nobody has the name."""

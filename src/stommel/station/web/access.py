@@ -44,6 +44,13 @@ def somebody(connection: HTTPConnection) -> User | None:
     return user
 
 
+def gate(connection: HTTPConnection, user: Annotated[User | None, Depends(somebody)]) -> None:
+    """Check the role of a route before anything else of it: a stranger learns nothing, not even what is there."""
+    role = least_role(connection.scope["route"])
+    if role != "public":
+        _at_least(_NEEDED[role], user)
+
+
 def viewer(user: Annotated[User | None, Depends(somebody)]) -> User:
     """Somebody who may look."""
     return _at_least(Role.VIEWER, user)
@@ -81,6 +88,7 @@ Holder = Annotated[User, Depends(holder_of)]
 
 _ROLES = {viewer: "viewer", pilot: "pilot", admin: "admin", holder_of: "holder"}
 _ORDER = ("public", *_ROLES.values())
+_NEEDED = {"viewer": Role.VIEWER, "pilot": Role.PILOT, "holder": Role.PILOT, "admin": Role.ADMIN}
 
 
 def least_role(route: APIRoute) -> str:

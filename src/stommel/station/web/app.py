@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from fastapi import FastAPI, Request
+from fastapi import Depends, FastAPI, Request
 from fastapi.routing import APIRoute
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.responses import JSONResponse, Response
@@ -10,7 +10,7 @@ from starlette.routing import Match, Route
 
 from stommel import __version__
 from stommel.station.web import live
-from stommel.station.web.access import PUBLIC, least_role
+from stommel.station.web.access import PUBLIC, gate, least_role
 from stommel.station.web.built_page import BuiltPage
 from stommel.station.web.errors import add_handlers, detail_of
 from stommel.station.web.exposure import Exposure
@@ -52,7 +52,7 @@ def create_app(station: Any, exposure: Exposure | None = None) -> FastAPI:
     for route in api_routes():
         _require_role(route)
     for router in ROUTERS:
-        app.include_router(router)
+        app.include_router(router, dependencies=[Depends(gate)])
     app.include_router(live.router)
     app.router.routes.append(Route("/{path:path}", _rest(BuiltPage()), methods=None, include_in_schema=False))
     add_handlers(app)

@@ -3,10 +3,17 @@
 from fastapi import APIRouter
 
 from stommel.station.web.routes import (
+    alarms,
     commands,
     data,
+    layers,
+    link,
+    missions,
+    notes,
+    parameters,
     people,
     plans,
+    series,
     station,
     vehicles,
 )
@@ -16,6 +23,13 @@ ROUTERS: tuple[APIRouter, ...] = (
     people.router,
     vehicles.router,
     commands.router,
+    series.router,
+    link.router,
+    parameters.router,
+    missions.router,
     data.router,
+    alarms.router,
+    notes.router,
+    layers.router,
     plans.router,
 )

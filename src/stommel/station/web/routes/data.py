@@ -17,7 +17,7 @@ from starlette.background import BackgroundTask
 
 from stommel.data.files import csv_lines, write_netcdf
 from stommel.data.gridding import section
-from stommel.data.summaries import ProfileSummary, profile_summaries
+from stommel.data.summaries import profile_summaries
 from stommel.data.variables import BY_NAME
 from stommel.data.water_masses import density_lines
 from stommel.station.archive import schema
@@ -67,10 +67,29 @@ class Dive(BaseModel):
     energy_j: float | None
 
 
+class ProfileLine(BaseModel):
+    """A profile as a list shows it; null is what is not known."""
+
+    number: int
+    """From 1; a profile keeps its number."""
+    direction: int
+    """1 down, -1 up."""
+    begin: float
+    """[s since 1970]"""
+    end: float
+    samples: int
+    dive: int | None
+    latitude: float | None
+    """Mean [deg]."""
+    longitude: float | None
+    least_depth_m: float | None
+    greatest_depth_m: float | None
+
+
 class Profile(BaseModel):
     """A profile: its line in the list, and its samples."""
 
-    about: dict[str, Any]
+    about: ProfileLine
     units: dict[str, str]
     values: dict[str, list[float | None]]
     """By variable, `depth` and `time` [s since 1970] among them."""
@@ -128,9 +147,10 @@ def read_dives(line: Line, station: TheStation, _user: Viewer, begin: Begin = 0.
 @router.get("/vehicles/{vehicle}/profiles")
 def read_profiles(
     line: Line, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
-) -> list[ProfileSummary]:
+) -> list[ProfileLine]:
     """Profiles that have samples between two times; each keeps its number."""
-    return [found for found in profile_summaries(records.of(line.vehicle)) if found.end >= begin and found.begin <= end]
+    found = profile_summaries(records.of(line.vehicle))
+    return [ProfileLine(**row._asdict()) for row in found if row.end >= begin and row.begin <= end]
 
 
 @router.get("/vehicles/{vehicle}/profiles/{number}")
@@ -144,7 +164,7 @@ def read_profile(
         raise refusal(404, f"there is no profile {number}", key="number", value=number)
     names = [str(name) for name in samples.data_vars if name in BY_NAME]
     return Profile(
-        about=profile_summaries(samples)[0]._asdict(),
+        about=ProfileLine(**profile_summaries(samples)[0]._asdict()),
         units={name: BY_NAME[name].units for name in names},
         values={name: _plain(samples[name].values) for name in [*names, "time"]},
     )

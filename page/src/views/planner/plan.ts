@@ -1,0 +1,137 @@
+/** The plan as the page edits it; what may stand in it, the station says. */
+
+import { withValue } from './fields';
+
+export interface PlanPlace {
+  latitude_deg: number;
+  longitude_deg: number;
+}
+
+export interface Plan {
+  format: 1;
+  name: string;
+  vehicle: string;
+  start: PlanPlace;
+  waypoints: PlanPlace[];
+  geofence?: PlanPlace[];
+  dives: Record<string, unknown>;
+  [section: string]: unknown;
+}
+
+export interface PlanProblem {
+  key: string;
+  value: string;
+  reason: string;
+  allowed: string;
+}
+
+export const MOST_WAYPOINTS = 200;
+
+/** Whether a value has what the page needs to show it as a plan; the rest, the station checks. */
+export function isPlan(value: unknown): value is Plan {
+  if (typeof value !== 'object' || value === null) return false;
+  const plan = value as Partial<Plan>;
+  return (
+    typeof plan.name === 'string' &&
+    typeof plan.vehicle === 'string' &&
+    isPlace(plan.start) &&
+    Array.isArray(plan.waypoints ?? []) &&
+    (plan.waypoints ?? []).every(isPlace) &&
+    (plan.geofence ?? []).every(isPlace) &&
+    typeof plan.dives === 'object' &&
+    plan.dives !== null
+  );
+}
+
+function isPlace(value: unknown): value is PlanPlace {
+  const place = value as Partial<PlanPlace> | null | undefined;
+  return Number.isFinite(place?.latitude_deg) && Number.isFinite(place?.longitude_deg);
+}
+
+/** A plan without the values that hold anyway. */
+export function tidy(plan: Plan): Plan {
+  const kept = Object.entries(plan).filter(([, value]) => value !== null);
+  const tables = kept.map(([key, value]) => [key, isTable(value) ? withoutNulls(value) : value]);
+  const told = Object.fromEntries(tables) as Plan;
+  return { ...told, waypoints: told.waypoints ?? [] };
+}
+
+function isTable(value: unknown): value is Record<string, unknown> {
+  return typeof value === 'object' && value !== null && !Array.isArray(value);
+}
+
+function withoutNulls(table: Record<string, unknown>): Record<string, unknown> {
+  return Object.fromEntries(Object.entries(table).filter(([, value]) => value !== null));
+}
+
+/** The plan with another place: "start", "waypoints.2" or "geofence.0". */
+export function withPlace(plan: Plan, key: string, place: PlanPlace): Plan {
+  const [list, number] = key.split('.');
+  if (list === 'start') return { ...plan, start: place };
+  const places = list === 'geofence' ? (plan.geofence ?? []) : plan.waypoints;
+  const moved = places.map((each, index) => (index === Number(number) ? place : each));
+  return list === 'geofence' ? { ...plan, geofence: moved } : { ...plan, waypoints: moved };
+}
+
+/** The plan with one waypoint more, before the one of that number. */
+export function inserted(plan: Plan, number: number, place: PlanPlace): Plan {
+  if (plan.waypoints.length >= MOST_WAYPOINTS) return plan;
+  return { ...plan, waypoints: plan.waypoints.toSpliced(number, 0, place) };
+}
+
+/** The plan without a waypoint. */
+export function without(plan: Plan, number: number): Plan {
+  return { ...plan, waypoints: plan.waypoints.filter((_, index) => index !== number) };
+}
+
+/** The plan with a waypoint at another number of the order. */
+export function reordered(plan: Plan, from: number, to: number): Plan {
+  const place = plan.waypoints[from];
+  if (!place || to < 0 || to >= plan.waypoints.length) return plan;
+  return { ...plan, waypoints: plan.waypoints.toSpliced(from, 1).toSpliced(to, 0, place) };
+}
+
+/** Of speed, least speed and ballast, which one drives the dives. */
+export type Drive = 'speed_m_s' | 'least_speed_m_s' | 'ballast_ml';
+
+export function driveOf(plan: Plan): Drive {
+  if (plan.dives.ballast_ml !== undefined && plan.dives.ballast_ml !== null) return 'ballast_ml';
+  return plan.dives.speed_m_s !== undefined && plan.dives.speed_m_s !== null ? 'speed_m_s' : 'least_speed_m_s';
+}
+
+/** The plan with a number for what drives the dives, and none for what cannot stand beside it. */
+export function withDrive(plan: Plan, drive: Drive, value: number): Plan {
+  const others = drive === 'ballast_ml' ? ['speed_m_s', 'least_speed_m_s'] : ['ballast_ml'];
+  const alone = others.reduce((told, key) => withValue(told, `dives.${key}`, undefined), plan);
+  return withValue(alone, `dives.${drive}`, value);
+}
+
+export interface Difference {
+  key: string;
+  here: string;
+  there: string;
+}
+
+/** What is not the same in two plans, key by key; empty where it is left out. */
+export function differences(here: Plan, there: Plan): Difference[] {
+  const one = flat(here);
+  const other = flat(there);
+  const keys = [...new Set([...Object.keys(one), ...Object.keys(other)])];
+  return keys
+    .map((key) => ({ key, here: one[key] ?? '', there: other[key] ?? '' }))
+    .filter((row) => row.here !== row.there);
+}
+
+function flat(value: unknown, before = '', found: Record<string, string> = {}): Record<string, string> {
+  if (value === null || value === undefined) return found;
+  if (isPlace(value)) {
+    found[before] = `${value.latitude_deg.toFixed(5)}, ${value.longitude_deg.toFixed(5)}`;
+  } else if (Array.isArray(value) && value.every((each) => typeof each === 'string')) {
+    found[before] = value.join(', ');
+  } else if (typeof value === 'object') {
+    for (const [key, each] of Object.entries(value)) flat(each, before ? `${before}.${key}` : key, found);
+  } else {
+    found[before] = String(value);
+  }
+  return found;
+}

@@ -1,0 +1,51 @@
+"""`stommel station check`: whether the archive is sound."""
+
+from typing import TYPE_CHECKING
+
+import typer
+
+from stommel.cli.finish import finish
+from stommel.cli.options import JsonOption
+from stommel.cli.output import show_values
+from stommel.cli.station.database import DatabaseOption
+
+if TYPE_CHECKING:
+    from stommel.station.archive.soundness import Soundness
+
+
+def check(database: DatabaseOption, as_json: JsonOption = False) -> None:
+    """Look through the whole archive and tell what is wrong; nothing is changed. Exit status 1 if something is.
+
+    Example: stommel station check --database sea.sqlite
+    """
+    from stommel.station.archive.soundness import soundness_of
+
+    found = soundness_of(database)
+    finish(found, None, as_json, _show)
+    if found.problems:
+        raise typer.Exit(1)
+
+
+def migrate(database: DatabaseOption, as_json: JsonOption = False) -> None:
+    """Bring an archive of an older version up to date, as the station does at its start.
+
+    Example: stommel station migrate --database sea.sqlite
+    """
+    from stommel.station.archive import Archive
+    from stommel.station.archive.address import address_of
+    from stommel.station.archive.looking import require_there
+    from stommel.station.archive.migrating import CURRENT
+
+    require_there(address_of(database))
+    with Archive.open(database) as archive:
+        answer = {"archive": archive.name, "version": CURRENT}
+    finish(answer, None, as_json, lambda answer: typer.echo(f"{answer['archive']}: up to date ({answer['version']})"))
+
+
+def _show(found: "Soundness") -> None:
+    values = {"version": found.version if found.current else f"{found.version}, not that of this program"}
+    if found.size_bytes is not None:
+        values["size"] = f"{found.size_bytes / 1e6:.1f} MB"
+    values |= {name: f"{count} rows" for name, count in found.rows.items() if count}
+    values["found"] = "; ".join(found.problems) or "sound"
+    show_values(found.archive, values)

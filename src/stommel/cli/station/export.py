@@ -1,0 +1,87 @@
+"""`stommel station export`: what a vehicle sampled, as CF NetCDF or CSV."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from stommel.cli.finish import finish
+from stommel.cli.options import JsonOption
+from stommel.cli.station.database import DatabaseOption
+from stommel.errors import OutputError, StommelError
+from stommel.files.units import counted
+
+if TYPE_CHECKING:
+    from stommel.station.archive import Archive
+
+
+class UnknownVehicleError(StommelError):
+    """The archive holds nothing of this vehicle."""
+
+
+class What(StrEnum):
+    """Which samples."""
+
+    ctd = "ctd"
+    telemetry = "telemetry"
+
+
+BeginOption = Annotated[str, typer.Option("--begin", metavar="TIME", help="First time, like 2026-05-01T12:00 (UTC).")]
+EndOption = Annotated[str, typer.Option("--end", metavar="TIME", help="Last time.")]
+
+
+def export(
+    database: DatabaseOption,
+    vehicle: Annotated[int, typer.Option("--vehicle", min=1, max=250, help="Number of the vehicle.")],
+    output: Annotated[Path, typer.Option("--output", metavar="FILE", help="Ends with .nc or .csv.")],
+    what: Annotated[
+        What, typer.Option("--what", help="Samples of the CTD with what follows from them, or all telemetry (CSV).")
+    ] = What.ctd,
+    begin: BeginOption = "1970-01-01",
+    end: EndOption = "2100-01-01",
+    as_json: JsonOption = False,
+) -> None:
+    """Write what a vehicle sampled to a file; the station may go on writing to the archive.
+
+    Example: stommel station export --database sea.sqlite --vehicle 1 --output sea.nc
+    """
+    from stommel.files.whole import require_file
+    from stommel.ocean.times import seconds
+    from stommel.station.archive import Archive
+    from stommel.station.archive.address import address_of
+    from stommel.station.archive.looking import require_there
+
+    require_file(output, (".csv",) if what is What.telemetry else (".nc", ".csv"))
+    span = seconds(begin), seconds(end)
+    require_there(address_of(database))
+    with Archive.open(database) as archive:
+        _require_known(archive, vehicle)
+        write = _write_telemetry if what is What.telemetry else _write_ctd
+        count = write(archive, vehicle, *span, output)
+    answer: dict[str, Any] = {"vehicle": vehicle, "what": str(what), "samples": count}
+    finish(answer, [output], as_json, lambda _: typer.echo(counted(count, "sample")))
+
+
+def _require_known(archive: "Archive", vehicle: int) -> None:
+    known = archive.vehicles()
+    if vehicle not in known:
+        among = ", ".join(f"{number} ({name})" for number, name in known.items()) or "none"
+        raise UnknownVehicleError(f"{archive.name}: nothing of vehicle {vehicle} is there; there are: {among}")
+
+
+def _write_telemetry(archive: "Archive", vehicle: int, begin: float, end: float, output: Path) -> int:
+    from stommel.station.archive.telemetry_file import write_telemetry
+
+    return write_telemetry(archive, vehicle, begin, end, output)
+
+
+def _write_ctd(archive: "Archive", vehicle: int, begin: float, end: float, output: Path) -> int:
+    from stommel.data.files import write_csv, write_netcdf
+    from stommel.station.products.samples import export_dataset
+
+    samples = export_dataset(archive, vehicle, begin, end)
+    if not samples.sizes["obs"]:
+        raise OutputError(f"{output}: not written: there are no samples of the CTD in this time")
+    (write_netcdf if output.suffix == ".nc" else write_csv)(samples, output)
+    return samples.sizes["obs"]

@@ -1,0 +1,139 @@
+"""The log book: notes with author and time, found by words, beside commands, missions and alarms."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from sqlalchemy import insert
+
+from stommel.station.archive.schema import alarms, commands, missions
+from stommel.station.logbook.feed import page_of
+from stommel.station.logbook.notes import Notes
+from stommel.station.station import Station
+from tests.station.client import Client
+from tests.station.stations import station as running
+
+T0 = 1_700_000_000.0
+
+
+@pytest.fixture
+def station(tmp_path: Path) -> Iterator[Station]:
+    with running(tmp_path, "tcp:127.0.0.1:9", "tcp:127.0.0.1:10", start=False) as made:
+        yield made
+
+
+@pytest.fixture
+def client(station: Station) -> Client:
+    return Client(station)
+
+
+def filled(station: Station) -> None:
+    """One of each kind at the same second, and an alarm of another vehicle."""
+    us = round(T0 * 1e6)
+    alarm = {
+        "key": "k", "words": "Depth above 200 m", "severity": "critical", "raised_us": us, "cleared_us": us,
+        "acknowledged_us": us, "acknowledged_by": "ana", "note": "seen it",
+    }  # fmt: skip
+    command = {
+        "id": "00ff", "vehicle_id": 1, "user": "ben", "given_us": us, "expires_us": us, "name": "surface",
+        "parameters": {"why": 3}, "occasion": "at_once", "state": "done", "outcome": "executed", "changed_us": us,
+    }  # fmt: skip
+    mission = {
+        "vehicle_id": 1, "t_us": us, "user": "ana", "name": "Zhoushan", "sha256": "", "orders": "", "state": "aboard",
+    }  # fmt: skip
+    with station.archive.writing() as connection:
+        connection.execute(insert(alarms), [{"vehicle_id": vehicle, **alarm} for vehicle in (1, 2)])
+        connection.execute(insert(commands), {key: value for key, value in command.items() if key in commands.c})
+        connection.execute(insert(missions), mission)
+    Notes(station.archive).add(1, T0, "ana", "Launched from the pier")
+
+
+def test_a_note_keeps_its_author_its_vehicle_and_its_time(station: Station, client: Client) -> None:
+    news = station.hub.watch()
+    made = client.post("/notes", {"vehicle": 1, "t": T0, "words": "  Strong current\nto the <b>east</b> "})
+    event = news.collect()
+    assert (made["user"], made["vehicle"], made["t"]) == ("local", 1, T0)
+    assert made["words"] == "Strong current\nto the <b>east</b>"
+    assert event == {"type": "event", "kind": "note", "vehicle": 1, "data": made}
+    assert client.get("/notes") == client.get("/notes", vehicle=1) == [made]
+    assert client.get("/notes", vehicle=2) == []
+    about_all = client.post("/notes", {"words": "Storm"})
+    assert about_all["vehicle"] is None
+    assert abs(about_all["t"] - about_all["written"]) < 5.0
+
+
+@pytest.mark.parametrize(
+    ("body", "status", "key"),
+    [
+        ({"words": ""}, 422, "words"),
+        ({"words": " \n"}, 422, "words"),
+        ({"words": "x" * 10_001}, 422, "words"),
+        ({"words": "x", "t": 4_000_000_000}, 422, "t"),
+        ({"words": "x", "t": -1}, 422, "t"),
+        ({"words": "x", "vehicle": 7}, 404, "vehicle"),
+        ({"words": "x", "user": "somebody else"}, 422, "user"),
+    ],
+)
+def test_a_note_that_cannot_be_is_refused(client: Client, body: dict[str, Any], status: int, key: str) -> None:
+    assert client.refused("POST", "/notes", status, json=body)["key"] == key
+
+
+@pytest.mark.parametrize(
+    ("search", "found"),
+    [
+        ("pier", 1), ("PIER launched", 1), ("pier boat", 0), ("100%", 1), ("%", 1), ("_", 1), ("a_b", 1), ("ana", 3),
+        ("'; drop", 0),
+    ],
+)  # fmt: skip
+def test_notes_are_found_by_their_words(station: Station, client: Client, search: str, found: int) -> None:
+    for words in ("Launched from the pier", "Battery at 100%", "file a_b"):
+        Notes(station.archive).add(1, T0, "ana", words)
+    assert len(client.get("/notes", search=search)) == found
+
+
+def test_everything_about_a_vehicle_is_in_one_list(station: Station, client: Client) -> None:
+    filled(station)
+    page = client.get("/vehicles/1/log")
+    told = [(entry["kind"], entry["user"], entry["words"], entry["state"]) for entry in page["entries"]]
+    assert told == [
+        ("alarm", None, "Depth above 200 m", "over, seen by ana: seen it"),
+        ("command", "ben", "Command surface: why 3", "done: executed"),
+        ("mission", "ana", "Mission Zhoushan", "aboard"),
+        ("note", "ana", "Launched from the pier", None),
+    ]
+    assert {entry["t"] for entry in page["entries"]} == {T0}
+    assert page["next"] is None
+    assert [entry["kind"] for entry in client.get("/vehicles/1/log", kinds=["note", "alarm"])["entries"]] == [
+        "alarm", "note",
+    ]  # fmt: skip
+    assert [entry["kind"] for entry in client.get("/vehicles/1/log", search="seen")["entries"]] == ["alarm"]
+
+
+@pytest.mark.parametrize("limit", [1, 2, 3, 7])
+def test_pages_of_the_list_leave_nothing_out_and_repeat_nothing(station: Station, limit: int) -> None:
+    """Oracle: the whole list at once; many entries share their time."""
+    filled(station)
+    for n in range(9):
+        Notes(station.archive).add(1, T0 + n // 3, "ana", f"note {n}")
+    whole = page_of(station.archive, 1, limit=500).entries
+    assert len(whole) == 13
+    assert [entry.t for entry in whole] == sorted((entry.t for entry in whole), reverse=True)
+    found, before = [], None
+    for _ in range(20):
+        page = page_of(station.archive, 1, limit=limit, before=before)
+        found += page.entries
+        before = page.next
+        if before is None:
+            break
+    assert found == whole
+
+
+@pytest.mark.parametrize("before", ["1", "1-note", "1-note-x", "1-frog-1", f"1-note-{'f' * 17}", "1-note-1 or 1"])
+def test_a_place_in_the_list_that_is_none_is_refused(client: Client, before: str) -> None:
+    client.refused("GET", "/vehicles/1/log", 422, params={"before": before})
+
+
+def test_a_number_that_fits_no_table_is_an_empty_page(client: Client) -> None:
+    assert client.get("/vehicles/1/log", before="1-note-ffff")["entries"] == []
+    assert client.get("/vehicles/1/log", before="99999999999999999-note-9999999999999999")["entries"] == []

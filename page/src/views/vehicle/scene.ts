@@ -63,8 +63,8 @@ export class GliderScene {
   private readonly length: number;
   private readonly goal = new Quaternion();
   private heading = 0;
-  private azimuth = 54;
-  private elevation = 20;
+  private azimuth = 76;
+  private elevation = 30;
   private frame = 0;
   private still: boolean;
 

@@ -7,11 +7,10 @@ from stommel.station.web.routes import (
     commands,
     data,
     link,
-    people,
-    series,
     notes,
     people,
     plans,
+    series,
     station,
     vehicles,
 )

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from dataclasses import asdict
 from typing import Any
 
 from stommel.files.folder_lock import FolderInUseError, locked
@@ -149,7 +150,7 @@ class Station:
 
     def _holder_changed(self, vehicle: int, hold: Hold | None) -> None:
         self._holders[vehicle] = hold
-        told = {"vehicle": vehicle, "user": None} if hold is None else hold._asdict()
+        told = {"vehicle": vehicle, "user": None} if hold is None else asdict(hold)
         self.hub.publish(Happening("holder", vehicle, told))
 
     def _title(self, vehicle: int) -> str:

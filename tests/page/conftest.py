@@ -9,10 +9,14 @@ import time
 import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 import stommel
+
+if TYPE_CHECKING:
+    from tests.page.past import Past
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILT = Path(stommel.__file__).parent / "station" / "built" / "index.html"
@@ -153,7 +157,7 @@ def serious(page) -> Callable[[], list[str]]:
         pytest.skip("axe-core is not installed: make page")
 
     def find() -> list[str]:
-        page.add_script_tag(path=AXE)
+        page.evaluate(AXE.read_text(encoding="utf-8"))  # as a script tag the page's own policy would refuse it
         found = page.evaluate("axe.run(document, {resultTypes: ['violations']})")["violations"]
         return [
             f"{one['id']}: {node['target']} {node['failureSummary']}"
@@ -163,3 +167,12 @@ def serious(page) -> Callable[[], list[str]]:
         ]
 
     return find
+
+
+@pytest.fixture(scope="session")
+def past(built: None, tmp_path_factory: pytest.TempPathFactory) -> "Iterator[Past]":
+    """A real station with six hours of the past, and a vehicle that says what a test wants."""
+    from tests.page.past import past_station
+
+    with past_station(tmp_path_factory.mktemp("past")) as found:
+        yield found

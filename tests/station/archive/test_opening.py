@@ -15,7 +15,7 @@ import pytest
 from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import create_engine, event, inspect, text
+from sqlalchemy import create_engine, event, inspect, make_url, text
 
 from stommel.station.archive import (
     Archive,
@@ -28,7 +28,10 @@ from stommel.station.archive import (
     FrameRow,
     migrating,
 )
+from stommel.station.archive.backup import back_up
+from stommel.station.archive.looking import looking
 from stommel.station.archive.schema import metadata
+from stommel.station.archive.soundness import soundness_of
 
 T = 1_700_000_000.0
 SAMPLES = Batch(samples=[("depth_m", T, 1.0)])
@@ -283,3 +286,22 @@ def test_errors_name_the_file(tmp_path: Path, opened: Callable[..., Archive]) ->
     other = opened(str(tmp_path / "sea.sqlite"))
     with other.writing(), pytest.raises(ArchiveBusyError, match=r"sea\.sqlite: "):
         archive.store(1, SAMPLES)
+
+
+def test_looking_leaves_nothing_beside_the_file(tmp_path: Path) -> None:
+    file = tmp_path / "sea.sqlite"
+    with Archive.open(str(file)) as archive:
+        archive.store(1, SAMPLES)
+    before = content(file)
+    for _ in range(2):
+        assert soundness_of(str(file)).problems == ()
+    back_up(str(file), tmp_path / "copy.sqlite")
+    assert soundness_of(str(tmp_path / "copy.sqlite")).problems == ()
+    assert content(file) == before
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["copy.sqlite", "sea.sqlite"]
+
+
+def test_nobody_writes_by_looking(database: str) -> None:
+    Archive.open(database).close()
+    with pytest.raises(ArchiveFullError, match="must not be written to"), looking(make_url(database)) as connection:
+        connection.execute(text("DELETE FROM notes"))

@@ -1,6 +1,6 @@
-"""What the samples of a channel come to in each minute and each hour, kept up with the samples themselves.
+"""What the samples of a channel come to in each minute and each ten minutes, kept up with the samples themselves.
 
-A month at 1 Hz is 2.6 million samples, 43 200 minutes or 720 hours: long ranges are drawn from the cells.
+A month at 1 Hz is 2.6 million samples, 43 200 minutes or 4 320 times ten: long ranges are drawn from the cells.
 """
 
 from collections.abc import Iterable, Sequence
@@ -9,8 +9,8 @@ from itertools import groupby
 
 from sqlalchemy import Connection, Table, select
 
-from stommel.station.archive.schema import hours, minutes, samples
-from stommel.station.archive.times import HOUR_US, MINUTE_US
+from stommel.station.archive.schema import minutes, samples, ten_minutes
+from stommel.station.archive.times import MINUTE_US
 from stommel.station.archive.upserting import upsert
 
 Place = tuple[int, int]
@@ -27,7 +27,7 @@ class Level:
     width_us: int
 
 
-LEVELS = (Level(minutes, MINUTE_US), Level(hours, HOUR_US))
+LEVELS = (Level(minutes, MINUTE_US), Level(ten_minutes, 10 * MINUTE_US))
 """From fine to coarse."""
 
 

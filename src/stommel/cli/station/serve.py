@@ -155,4 +155,4 @@ def _greet(station: "Station", address: str) -> None:
     for line in station.vehicles.values():
         typer.echo(f"{line.settings.title}: {line.settings.link}", err=True)
     typer.echo(f"archive: {station.archive.name}", err=True)
-    typer.echo(f"page: {address}  (Ctrl-C ends)", err=True)
+    typer.echo(f"page: {address}  (Ctrl-C ends)")

@@ -27,6 +27,11 @@ def seconds(t_us: int) -> float:
     return t_us / 1e6
 
 
+def as_kept(t: float) -> float:
+    """A time in seconds since 1970 as it comes back out of the archive; one that is none becomes the nearest."""
+    return seconds(microseconds(min(max(t, 0.0), GREATEST_TIME)))
+
+
 def is_time(t: float) -> bool:
     """Whether the archive takes this as a time."""
     return math.isfinite(t) and 0.0 <= t <= GREATEST_TIME

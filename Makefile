@@ -10,7 +10,7 @@ PAGE_SOURCES := $(shell find page -name node_modules -prune -o -type f -print)
 .PHONY: help setup page run test check format bench docs dist clean
 
 help:
-	@echo "make run     design the paper's glider; the report is build/zju-design.html"
+	@echo "make run     design the paper's glider, launch it in a simulated sea, and serve the page that commands it"
 	@echo "make test    everything that CI checks: format, lint, types, contracts, tests"
 	@echo "make check   format, lint, types and import contracts only"
 	@echo "make bench   every figure by name, also in build/bench.json"
@@ -48,12 +48,16 @@ page/node_modules/.package-lock.json: page/package-lock.json | $(VENV)/page.stam
 
 $(PAGE): page/node_modules/.package-lock.json $(PAGE_SOURCES)
 	$(BIN)/python page/npm.py run --silent build -- --logLevel warn
+	$(BIN)/python page/weight.py
 	@touch $@
 
 page: $(PAGE)
 
+# each launch is a flight of its own, with an archive of its own
 run: $(VENV)/run.stamp $(PAGE)
 	$(BIN)/stommel design zju --output build/zju-design.html
+	@echo "launching the glider of that design in a simulated East China Sea, 20 times real time"
+	@exec $(BIN)/stommel station --sitl east_china_sea --speed 20 --folder build/flights/$$(date -u +%Y%m%dT%H%M%SZ)
 
 check: $(VENV)/test.stamp
 	$(BIN)/ruff format --check .

@@ -26,18 +26,18 @@ export type View = VehicleView | StationView;
 export const views: readonly View[] = [
   { name: 'fleet', title: 'Fleet', key: 'f', of: 'station', load: () => import('./fleet/Fleet.svelte') },
   { name: 'map', title: 'Map', key: 'm', of: 'station', load: () => import('./map/MapView.svelte') },
-  { name: 'people', title: 'People', key: 'u', role: 'viewer', of: 'station', load: () => import('./fleet/Fleet.svelte') },
+  { name: 'people', title: 'People', key: 'u', role: 'viewer', of: 'station', load: () => import('./people/People.svelte') },
   { name: 'vehicle', title: 'Overview', key: 'v', of: 'vehicle', load: () => import('./vehicle/Vehicle.svelte') },
   { name: 'plots', title: 'Plots', key: 'p', of: 'vehicle', load: () => import('./plots/Plots.svelte') },
   { name: 'data', title: 'Data', key: 'd', of: 'vehicle', load: () => import('./data/Data.svelte') },
-  { name: 'commands', title: 'Commands', key: 'c', of: 'vehicle', load: () => import('./Pending.svelte') },
-  { name: 'parameters', title: 'Parameters', key: 'e', of: 'vehicle', load: () => import('./Pending.svelte') },
-  { name: 'plan', title: 'Plan', key: 'n', of: 'vehicle', load: () => import('./Pending.svelte') },
-  { name: 'link', title: 'Link', key: 'l', of: 'vehicle', load: () => import('./Pending.svelte') },
-  { name: 'files', title: 'Files', key: 'i', of: 'vehicle', load: () => import('./Pending.svelte') },
+  { name: 'commands', title: 'Commands', key: 'c', of: 'vehicle', load: () => import('./commands/Commands.svelte') },
+  { name: 'parameters', title: 'Parameters', key: 'e', of: 'vehicle', load: () => import('./parameters/Parameters.svelte') },
+  { name: 'plan', title: 'Plan', key: 'n', of: 'vehicle', load: () => import('./planner/Planner.svelte') },
+  { name: 'link', title: 'Link', key: 'l', of: 'vehicle', load: () => import('./link/Link.svelte') },
+  { name: 'files', title: 'Files', key: 'i', of: 'vehicle', load: () => import('./files/Files.svelte') },
   { name: 'alarms', title: 'Alarms', key: 'a', of: 'vehicle', load: () => import('./alarms/Alarms.svelte') },
   { name: 'replay', title: 'Replay', key: 'r', of: 'vehicle', load: () => import('./replay/Replay.svelte') },
-  { name: 'log', title: 'Log', key: 'o', of: 'vehicle', load: () => import('./Pending.svelte') },
+  { name: 'log', title: 'Log', key: 'o', of: 'vehicle', load: () => import('./log/Log.svelte') },
 ];
 
 export function viewNamed(name: string): View | undefined {

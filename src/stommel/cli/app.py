@@ -23,6 +23,7 @@ from stommel.cli import (
     modes,
     ocean,
     orders,
+    plan,
     root_locus,
     simulate,
     sitl,
@@ -91,3 +92,4 @@ app.add_typer(can.can_app, name="can")
 app.add_typer(link.link_app, name="link")
 app.add_typer(sitl.sitl_app, name="sitl")
 app.add_typer(station.station_app, name="station")
+app.add_typer(plan.plan_app, name="plan")

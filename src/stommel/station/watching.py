@@ -1,6 +1,7 @@
 """How the alarms of a station come to know what its vehicles bring."""
 
 from collections.abc import Callable, Mapping
+from functools import cache
 from typing import Any
 
 from stommel.errors import StommelError
@@ -62,6 +63,7 @@ def open_alarms(alarms: StationAlarms, vehicle: int) -> list[dict[str, str]]:
     return [{"key": alarm.key, "words": alarm.words, "severity": alarm.severity} for alarm in found]
 
 
+@cache
 def file_of(model: str) -> Vehicle | None:
     """The vehicle file of a vehicle; None where there is none."""
     try:

@@ -200,3 +200,16 @@ def test_pages_of_the_history_leave_nothing_out(archive: Archive) -> None:
     assert len(seen) == len(set(seen)) == 25
     assert scene.alarms.history.listed(is_open=True) == []
     assert len(scene.alarms.history.listed(is_acknowledged=False, limit=100)) == 25
+
+
+def test_a_sample_of_an_impossible_time_stops_nothing(archive: Archive) -> None:
+    scene = Scene(archive)
+    rows = scene.samples(("depth_m", 1e12, 250.0), ("depth_m", float("nan"), 250.0), ("depth_m", 2.0, 260.0))
+    assert [(row.raised - T0, row.value) for row in rows] == [(2.0, 260.0)]
+
+
+def test_an_alarm_that_breaks_a_rule_of_the_archive_keeps_no_other_waiting(archive: Archive) -> None:
+    scene = Scene(archive)
+    scene.alarms.watch(3, lambda: T0, lambda: None, ())  # no row of the archive is vehicle 3
+    scene.samples(("vehicle_alarms", 1.0, 1.0), vehicle=3)
+    assert [row.vehicle for row in scene.samples(("depth_m", 1.0, 250.0))] == [1]

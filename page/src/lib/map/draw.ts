@@ -33,7 +33,7 @@ export function draw(context: Context, view: MapView, size: Size, scene: Scene):
   drawFence(context, project, scene.fence);
   for (const circle of scene.circles) drawCircle(context, project, view, circle);
   for (const track of scene.tracks) drawTrack(context, project, track);
-  for (const arrow of scene.arrows) drawArrow(context, project, arrow);
+  drawArrows(context, project, scene.arrows);
 }
 
 function bounds(view: MapView, size: Size): [number, number, number, number] {
@@ -147,6 +147,17 @@ function drawTrack(context: Context, project: GeoProjection, track: MapTrack): v
   context.setLineDash(track.kind === 'planned' ? [6, 4] : track.kind === 'predicted' ? [2, 3] : []);
   context.stroke();
   context.setLineDash([]);
+}
+
+/** The newest last; earlier ones that would cover each other are left out. */
+function drawArrows(context: Context, project: GeoProjection, arrows: readonly MapArrow[]): void {
+  const taken: [number, number][] = [];
+  for (const arrow of [...arrows].reverse()) {
+    const at = project([arrow.longitude, arrow.latitude]);
+    if (!at || taken.some((other) => Math.hypot(at[0] - other[0], at[1] - other[1]) < 24)) continue;
+    taken.push(at);
+    drawArrow(context, project, arrow);
+  }
 }
 
 function drawArrow(context: Context, project: GeoProjection, arrow: MapArrow): void {

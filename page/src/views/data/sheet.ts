@@ -96,7 +96,8 @@ export function ticksOf(axis: Axis, pixels: number, pixelsEach: number): Tick[] 
   const count = Math.max(2, Math.floor(pixels / pixelsEach));
   if (axis.isTime) return timeTicks(axis, count);
   const values = niceTicks(axis.low, axis.high, count);
-  const step = values.length > 1 ? Math.abs(values[1]! - values[0]!) : 1;
+  const [first = 0, second = first + 1] = values;
+  const step = Math.abs(second - first);
   const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(step) + 1e-9)));
   return values.map((value) => ({ value, words: value.toFixed(digits).replace('-', '\u2212') }));
 }
@@ -120,14 +121,14 @@ export function ground(it: Pen, x: Axis, y: Axis): void {
   context.lineWidth = 1;
   context.textAlign = 'center';
   context.textBaseline = 'top';
-  for (const tick of ticksOf(x, box.width, x.isTime ? 80 : 64)) {
+  for (const tick of ticksOf(x, box.width, x.isTime ? 80 : 72)) {
     const place = Math.round(it.x(tick.value)) + 0.5;
     line(context, place, box.top, place, box.top + box.height + 4);
     context.fillText(tick.words, place, box.top + box.height + 7);
   }
   context.textAlign = 'right';
   context.textBaseline = 'middle';
-  for (const tick of ticksOf(y, box.height, 34)) {
+  for (const tick of ticksOf(y, box.height, 44)) {
     const place = Math.round(it.y(tick.value)) + 0.5;
     line(context, box.left - 4, place, box.left + box.width, place);
     context.fillText(tick.words, box.left - 7, place);

@@ -14,8 +14,16 @@ export interface Variable {
 const part = (colours: (share: number) => string, low: number, high: number) => (share: number): string =>
   colours(low + share * (high - low));
 
+const TEMPERATURE: Variable = {
+  key: 'conservative_temperature',
+  words: 'Conservative temperature',
+  unit: '°C',
+  digits: 2,
+  colours: part(interpolatePlasma, 0, 0.95),
+};
+
 export const VARIABLES: readonly Variable[] = [
-  { key: 'conservative_temperature', words: 'Conservative temperature', unit: '°C', digits: 2, colours: part(interpolatePlasma, 0, 0.95) },
+  TEMPERATURE,
   { key: 'absolute_salinity', words: 'Absolute salinity', unit: 'g/kg', digits: 3, colours: part(interpolateViridis, 0.05, 1) },
   { key: 'potential_density_anomaly', words: 'Potential density anomaly', unit: 'kg/m³', digits: 2, colours: part(interpolateCividis, 0.05, 1) },
   { key: 'density', words: 'In-situ density', unit: 'kg/m³', digits: 2, colours: part(interpolateCividis, 0.05, 1) },
@@ -26,7 +34,7 @@ export const VARIABLES: readonly Variable[] = [
 ];
 
 export function variableNamed(key: string): Variable {
-  return VARIABLES.find((one) => one.key === key) ?? VARIABLES[0]!;
+  return VARIABLES.find((one) => one.key === key) ?? TEMPERATURE;
 }
 
 /** Name and unit, for an axis. */

@@ -1,18 +1,20 @@
 /** A MAVLink frame taken apart as far as its header says; the fields of a message come from the station. */
 
 export interface FrameRow {
-  id: number;
+  /** In the archive; later ones have greater numbers. */
+  number: number;
   t: number;
-  received?: number;
+  received: number;
   direction: 'in' | 'out';
   system: number;
   component: number;
   message_id: number;
-  name?: string;
+  message: string;
   sequence: number;
   signed: boolean;
-  frame: string;
-  fields?: Record<string, unknown> | null;
+  /** As it was, in hexadecimal. */
+  bytes: string;
+  values: Record<string, unknown>;
 }
 
 export interface FramePart {
@@ -81,4 +83,12 @@ export function dump(bytes: Uint8Array, width = 16): DumpLine[] {
     });
   }
   return lines;
+}
+
+/** A value of a field in words. */
+export function fieldWords(value: unknown): string {
+  if (value === null || value === undefined) return 'not a number';
+  if (Array.isArray(value)) return value.map(fieldWords).join(' ');
+  if (typeof value === 'number' && !Number.isInteger(value)) return String(Number(value.toPrecision(8)));
+  return typeof value === 'object' ? JSON.stringify(value) : String(value);
 }

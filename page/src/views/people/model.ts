@@ -42,10 +42,11 @@ export const PASSWORD_HINT = 'at least 10 characters; a short sentence is easy t
 export function detailWords(detail: unknown): string {
   if (detail === null || detail === undefined) return '';
   if (typeof detail !== 'object' || Array.isArray(detail)) return shown(detail);
-  const { path, body, status: _status, by, ...others } = detail as Record<string, unknown>;
+  const { path, body, by } = detail as Record<string, unknown>;
+  const others = Object.entries(detail).filter(([key]) => !['path', 'body', 'by', 'status'].includes(key));
   const said = typeof body === 'object' && body !== null ? pairs(body as Record<string, unknown>) : shown(body);
   const way = by === 'token' ? 'by token' : '';
-  return [shown(path).replace(/^\/api/, ''), said, pairs(others), way].filter(Boolean).join(' · ');
+  return [shown(path).replace(/^\/api/, ''), said, pairs(Object.fromEntries(others)), way].filter(Boolean).join(' · ');
 }
 
 function pairs(table: Record<string, unknown>): string {

@@ -3,7 +3,7 @@
 import { api, sentence } from '../../lib/api';
 import { live } from '../../lib/live.svelte';
 import type { Place } from '../../lib/map/types';
-import { isPlan, type Plan } from './plan';
+import { tidy, type Plan } from './plan';
 
 export interface MissionRow {
   id: number;
@@ -23,13 +23,14 @@ interface MissionAboard {
   number?: number | null;
   sha256?: string | null;
   waypoints?: (Place & { radius_m?: number | null })[];
-  plan?: unknown;
   missing?: string | null;
 }
 
 export class Aboard {
   readonly vehicle: number;
   mission = $state.raw<MissionAboard | null>(null);
+  /** The plan of the mission that was sent last, as it was made or as its orders tell. */
+  plan = $state.raw<Plan | null>(null);
   rows = $state.raw<MissionRow[]>([]);
   reason = $state('');
 
@@ -45,14 +46,6 @@ export class Aboard {
   /** The mission that was uploaded last. */
   get latest(): MissionRow | null {
     return this.rows[0] ?? null;
-  }
-
-  /** The plan of what is flown, where the station knows it. */
-  get plan(): Plan | null {
-    if (isPlan(this.mission?.plan)) return this.mission.plan;
-    const sha = this.mission?.sha256;
-    const row = sha ? this.rows.find((each) => each.sha256 === sha) : undefined;
-    return isPlan(row?.plan) ? row.plan : null;
   }
 
   /** Begins to follow; the function that comes back ends it. */
@@ -84,6 +77,11 @@ export class Aboard {
       this.reason = '';
     } catch (error) {
       this.reason = sentence(error);
+    }
+    try {
+      this.plan = tidy((await api.get<{ plan: Plan }>(`/vehicles/${this.vehicle}/mission/plan`)).plan);
+    } catch {
+      this.plan = null; // nothing was sent from here yet
     }
   }
 }

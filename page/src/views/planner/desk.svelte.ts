@@ -24,6 +24,8 @@ export class Desk {
   texts = $state.raw<Record<string, string>>({});
   /** What the station found wrong. */
   told = $state.raw<PlanProblem[]>([]);
+  /** What a pilot should know, though it can be flown. */
+  warnings = $state.raw<string[]>([]);
   checking = $state(false);
   /** Why the station did not check it; empty if it did. */
   unchecked = $state('');
@@ -154,12 +156,13 @@ export class Desk {
     this.asked += 1;
     const number = this.asked;
     try {
-      const answer = await api.post<{ problems: PlanProblem[] }>('/plans/validate', {
+      const answer = await api.post<{ problems: PlanProblem[]; warnings: string[] }>('/plans/validate', {
         vehicle: this.vehicle,
         plan: this.plan,
       });
       if (number !== this.asked) return;
       this.told = answer.problems;
+      this.warnings = answer.warnings;
       this.unchecked = '';
     } catch (error) {
       if (number !== this.asked) return;

@@ -1,41 +1,25 @@
-/** Fields of a plan, read from the station's own description of it: one set of ranges, which the page does not repeat. */
+/** Fields of a plan as the station describes them: one set of words, units and ranges, which the page does not repeat. */
 
-export interface Schema {
-  $ref?: string;
-  $defs?: Record<string, Schema>;
-  type?: string;
-  anyOf?: Schema[];
-  allOf?: Schema[];
-  properties?: Record<string, Schema>;
-  required?: string[];
-  items?: Schema;
-  enum?: (string | number)[];
-  const?: string | number;
-  minimum?: number;
-  maximum?: number;
-  exclusiveMinimum?: number;
-  exclusiveMaximum?: number;
-  default?: unknown;
-  title?: string;
-  description?: string;
-}
-
-export type FieldKind = 'number' | 'whole' | 'flag' | 'choice' | 'choices' | 'text';
-
-export interface PlanField {
-  /** Place in the plan, such as "dives.depth_m". */
+/** A value of a plan, as the station tells it. */
+export interface ToldField {
   key: string;
-  kind: FieldKind;
-  label: string;
-  hint: string;
+  words: string;
   unit: string;
   low: number | null;
   high: number | null;
-  /** What holds if nothing is typed; undefined where something must be. */
-  preset: unknown;
-  /** Whether it may be left empty. */
-  optional: boolean;
+  /** Whether 0 is allowed beside the range. */
+  or_zero: boolean;
   choices: string[];
+  several: boolean;
+  required: boolean;
+  default: unknown;
+}
+
+export type FieldKind = 'number' | 'flag' | 'choice' | 'choices' | 'text';
+
+export interface PlanField extends ToldField {
+  kind: FieldKind;
+  label: string;
 }
 
 export interface PlanSection {
@@ -45,112 +29,53 @@ export interface PlanSection {
   fields: PlanField[];
 }
 
-const UNITS: [ending: string, unit: string][] = [
-  ['_mm_per_deg', 'mm/deg'],
-  ['_ml_s_m', 'ml s/m'],
-  ['_m_s', 'm/s'],
-  ['_hours', 'h'],
-  ['_minutes', 'min'],
-  ['_days', 'd'],
-  ['_deg', 'deg'],
-  ['_kg_m3', 'kg/m³'],
-  ['_kpa', 'kPa'],
-  ['_mm', 'mm'],
-  ['_ml', 'ml'],
-  ['_km', 'km'],
-  ['_m', 'm'],
-  ['_s', 's'],
-];
+/** Keys that have a place of their own on the desk. */
+const HEAD = new Set(['format', 'name', 'vehicle', 'start']);
+const UNITS: Record<string, string> = { degrees: 'deg', days: 'd', 'kg/m3': 'kg/m³' };
 
-/** Unit that the ending of a key tells. */
-export function unitOf(key: string): string {
-  return UNITS.find(([ending]) => key.endsWith(ending))?.[1] ?? '';
-}
-
-/** The schema that a reference means. */
-function resolved(schema: Schema, all: Record<string, Schema>): Schema {
-  if (schema.$ref) {
-    const { $ref, ...rest } = schema;
-    return { ...resolved(all[$ref.split('/').at(-1) ?? ''] ?? {}, all), ...rest };
-  }
-  if (schema.allOf?.length === 1) {
-    const { allOf, ...rest } = schema;
-    return { ...resolved(allOf[0] as Schema, all), ...rest };
-  }
-  return schema;
-}
-
-/** One field; null for what a form does not show, such as the list of waypoints. */
-export function fieldOf(key: string, schema: Schema, all: Record<string, Schema>, required: boolean): PlanField | null {
-  const whole = resolved(schema, all);
-  const options = (whole.anyOf ?? [whole]).map((each) => resolved(each, all));
-  const optional = options.some((each) => each.type === 'null');
-  const told = options.find((each) => each.type !== 'null') ?? {};
-  const items = told.items ? resolved(told.items, all) : undefined;
-  const kind = kindOf(told, items);
-  if (kind === null) return null;
-  const last = key.split('.').at(-1) ?? key;
-  const words = WORDS[key];
+function fieldOf(told: ToldField): PlanField {
+  const last = told.key.split('.').at(-1) ?? told.key;
+  const words = WORDS[told.key];
   return {
-    key,
-    kind,
+    ...told,
+    unit: UNITS[told.unit] ?? told.unit,
+    words: words?.[1] ?? told.words,
+    kind: kindOf(told),
     label: words?.[0] ?? plainLabel(last),
-    hint: words?.[1] ?? whole.description ?? '',
-    unit: unitOf(last),
-    low: told.minimum ?? told.exclusiveMinimum ?? null,
-    high: told.maximum ?? told.exclusiveMaximum ?? null,
-    preset: required ? undefined : whole.default,
-    optional,
-    choices: ((kind === 'choices' ? items?.enum : told.enum) ?? []).map(String),
   };
 }
 
-function kindOf(told: Schema, items: Schema | undefined): FieldKind | null {
-  if (told.enum) return 'choice';
-  if (told.type === 'number') return 'number';
-  if (told.type === 'integer') return 'whole';
-  if (told.type === 'boolean') return 'flag';
-  if (told.type === 'string') return 'text';
-  if (told.type === 'array' && items?.enum) return 'choices';
-  return null;
+function kindOf(told: ToldField): FieldKind {
+  if (told.several) return 'choices';
+  if (told.choices.length > 0) return 'choice';
+  if (typeof told.default === 'boolean') return 'flag';
+  return told.low === null && told.high === null ? 'text' : 'number';
 }
 
 /** The sections of a plan with their fields, in the order of `SECTIONS`, then what else there is. */
-export function sectionsOf(schema: Schema, all: Record<string, Schema> = schema.$defs ?? {}): PlanSection[] {
-  const plan = resolved(schema, all);
-  const found: PlanSection[] = [];
-  const loose = Object.entries(plan.properties ?? {})
-    .filter(([key]) => !HEAD.has(key))
-    .map(([key, each]) => fieldOf(key, each, all, plan.required?.includes(key) ?? false))
-    .filter((field) => field !== null);
-  if (loose.length > 0) found.push({ key: '', title: 'Mission', words: 'when it begins and ends', fields: loose });
-  for (const [key, each] of Object.entries(plan.properties ?? {})) {
-    const table = (resolved(each, all).anyOf ?? [each]).map((one) => resolved(one, all)).find((one) => one.properties);
-    if (!table?.properties) continue;
-    const fields = Object.entries(table.properties)
-      .map(([name, one]) => fieldOf(`${key}.${name}`, one, all, table.required?.includes(name) ?? false))
-      .filter((field) => field !== null);
-    if (fields.length === 0) continue;
+export function sectionsOf(fields: ToldField[]): PlanSection[] {
+  const found = new Map<string, PlanSection>();
+  for (const told of fields) {
+    const [first, ...rest] = told.key.split('.') as [string, ...string[]];
+    if (HEAD.has(first)) continue;
+    const key = rest.length > 0 ? first : '';
     const known = SECTIONS[key];
-    found.push({ key, title: known?.[0] ?? plainLabel(key), words: known?.[1] ?? table.description ?? '', fields });
+    const section = found.get(key) ?? { key, title: known?.[0] ?? plainLabel(key), words: known?.[1] ?? '', fields: [] };
+    section.fields.push(fieldOf(told));
+    found.set(key, section);
   }
   const order = Object.keys(SECTIONS);
-  const place = (section: PlanSection) => (order.includes(section.key) ? order.indexOf(section.key) : order.length);
-  return found.sort((a, b) => place(a) - place(b));
+  const place = (section: PlanSection): number =>
+    order.includes(section.key) ? order.indexOf(section.key) : order.length;
+  return [...found.values()].sort((a, b) => place(a) - place(b));
 }
+
+const ENDINGS = /_(mm_per_deg|ml_s_m|m_s|kg_m3|hours|minutes|days|deg|kpa|mm|ml|km|m|s)$/;
 
 function plainLabel(key: string): string {
-  let name = key;
-  for (const [ending] of UNITS)
-    if (name.endsWith(ending)) {
-      name = name.slice(0, -ending.length);
-      break;
-    }
-  const words = name.replaceAll('_', ' ');
+  const words = key.replace(ENDINGS, '').replaceAll('_', ' ');
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
-
-const HEAD = new Set(['format', 'name', 'vehicle']);
 
 /** Sections that most plans leave alone. */
 export const RARE = new Set(['pitch_control', 'heading_control', 'drift_control']);
@@ -236,23 +161,21 @@ export function withValue<T extends object>(plan: T, key: string, value: unknown
 
 /** The range of a field in words; empty where there is none. */
 export function rangeWords(field: PlanField): string {
-  if (field.low === null && field.high === null) return '';
-  const unit = field.unit ? ` ${field.unit}` : '';
-  if (field.low === null) return `at most ${short(field.high as number)}${unit}`;
-  if (field.high === null) return `at least ${short(field.low)}${unit}`;
-  return `${short(field.low)} to ${short(field.high)}${unit}`;
+  if (field.low === null || field.high === null) return '';
+  const zero = field.or_zero ? '0, or ' : '';
+  return `${zero}${short(field.low)} to ${short(field.high)}${field.unit ? ` ${field.unit}` : ''}`;
 }
 
 /** What is wrong with what was typed, in words; empty if nothing is. */
 export function problemOf(field: PlanField, text: string): string {
+  if (field.kind !== 'number') return '';
   const typed = text.trim().replace(',', '.');
-  if (typed === '')
-    return field.optional || field.preset !== undefined ? '' : `is missing; allowed is ${rangeWords(field)}`;
+  if (typed === '') return field.required ? `is missing; allowed is ${rangeWords(field)}` : '';
   const value = Number(typed);
-  if (!Number.isFinite(value)) return `"${text.trim()}" is not a number`;
-  if (field.kind === 'whole' && !Number.isInteger(value)) return `must be a whole number, ${rangeWords(field)}`;
-  if ((field.low !== null && value < field.low) || (field.high !== null && value > field.high))
-    return `must be ${rangeWords(field)}`;
+  if (!Number.isFinite(value)) return `"${text.trim()}" is not a number; allowed is ${rangeWords(field)}`;
+  if (field.or_zero && value === 0) return '';
+  const { low, high } = field;
+  if ((low !== null && value < low) || (high !== null && value > high)) return `must be ${rangeWords(field)}`;
   return '';
 }
 
@@ -260,7 +183,7 @@ export function problemOf(field: PlanField, text: string): string {
 export function short(value: number): string {
   if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e7))
     return value.toExponential().replace('e+', 'e');
-  return String(Number(value.toPrecision(9)));
+  return String(Number(value.toPrecision(6)));
 }
 
 /** The number that was typed; a comma is a point. */

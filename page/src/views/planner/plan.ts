@@ -48,17 +48,20 @@ function isPlace(value: unknown): value is PlanPlace {
   return Number.isFinite(place?.latitude_deg) && Number.isFinite(place?.longitude_deg);
 }
 
-/** A first plan for a vehicle at a place. */
-export function firstPlan(vehicle: string, start: PlanPlace): Plan {
-  return {
-    format: 1,
-    name: 'New mission',
-    vehicle,
-    start,
-    waypoints: [],
-    dives: { depth_m: 70, pitch_deg: 30, speed_m_s: 0.4, per_surfacing: 1, least_altitude_m: 10 },
-    sampling: { every_s: 10 },
-  };
+/** A plan without the values that hold anyway. */
+export function tidy(plan: Plan): Plan {
+  const kept = Object.entries(plan).filter(([, value]) => value !== null);
+  const tables = kept.map(([key, value]) => [key, isTable(value) ? withoutNulls(value) : value]);
+  const told = Object.fromEntries(tables) as Plan;
+  return { ...told, waypoints: told.waypoints ?? [] };
+}
+
+function isTable(value: unknown): value is Record<string, unknown> {
+  return typeof value === 'object' && value !== null && !Array.isArray(value);
+}
+
+function withoutNulls(table: Record<string, unknown>): Record<string, unknown> {
+  return Object.fromEntries(Object.entries(table).filter(([, value]) => value !== null));
 }
 
 /** The plan with another place: "start", "waypoints.2" or "geofence.0". */

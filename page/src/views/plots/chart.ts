@@ -69,6 +69,11 @@ export function valueRange(low: number | null, high: number | null, limits: read
   return [bottom - room, top + room];
 }
 
+/** Whole numbers that stand for words, with half a step around them. */
+function namedRange(low: number | null, high: number | null): [number, number] {
+  return [Math.floor(low ?? 0) - 0.3, Math.ceil(high ?? 1) + 0.3];
+}
+
 export function chart(settings: ChartSettings, data: uPlot.AlignedData, place: HTMLElement): uPlot {
   return new uPlot(options(settings), data, place);
 }
@@ -97,7 +102,7 @@ function options(settings: ChartSettings): uPlot.Options {
       x: { time: true, range: () => { const { begin, end } = settings.shown(); return [begin, end]; } },
       y: {
         dir: settings.isDepth ? -1 : 1,
-        range: (_plot, low, high) => valueRange(low, high, settings.limits(), settings.isDepth),
+        range: (_plot, low, high) => (settings.words ? namedRange(low, high) : valueRange(low, high, settings.limits(), settings.isDepth)),
       },
     },
     series: [{}, ...Array.from({ length: settings.traces }, (_, index) => series(settings, index))],
@@ -111,14 +116,14 @@ function options(settings: ChartSettings): uPlot.Options {
 }
 
 function series(settings: ChartSettings, index: number): uPlot.Series {
-  const stepped = settings.stepped[index] ? { paths: uPlot.paths.stepped!({ align: 1 }) } : {};
+  const paths = settings.stepped[index] ? uPlot.paths.stepped?.({ align: 1 }) : undefined;
   return {
     stroke: () => settings.ink().traces[index % 8] ?? 'gray',
     width: 1.5,
     spanGaps: false,
     ...(settings.dashed[index] ? { dash: [6, 4] } : {}),
     points: { show: (_plot, _series, first, last) => last - first < 40, size: 4 },
-    ...stepped,
+    ...(paths ? { paths } : {}),
   };
 }
 
@@ -143,7 +148,7 @@ function valueAxis(settings: ChartSettings): uPlot.Axis {
 
 function numbers(_plot: uPlot, ticks: (number | null)[]): string[] {
   const [first, second] = ticks;
-  const step = first != null && second != null ? Math.abs(second - first) : 1;
+  const step = typeof first === 'number' && typeof second === 'number' ? Math.abs(second - first) : 1;
   const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(step) + 1e-9)));
   return ticks.map((tick) => (tick === null ? '' : tick.toFixed(digits).replace('-', '\u2212')));
 }
@@ -169,13 +174,13 @@ function takeSelection(plot: uPlot, settings: ChartSettings): void {
 
 function takeCursor(plot: uPlot, settings: ChartSettings): void {
   const left = plot.cursor.left;
-  settings.onCursor(left == null || left < 0 ? null : plot.posToVal(left, 'x'));
+  settings.onCursor(left === undefined || left < 0 ? null : plot.posToVal(left, 'x'));
 }
 
 /** What lies beyond a limit is shaded, the limit itself is a line. */
 function drawLimits(plot: uPlot, settings: ChartSettings): void {
   const limits = settings.limits();
-  if (limits.length === 0 || plot.scales['y']?.min == null) return;
+  if (limits.length === 0 || typeof plot.scales['y']?.min !== 'number') return;
   const { left, top, width, height } = plot.bbox;
   const context = plot.ctx;
   const ink = settings.ink();

@@ -53,7 +53,7 @@ function drag(area: HTMLElement, moves: Moves): () => void {
     if (fingers.size === 1) {
       moves.pan((before - event.clientX) / box.width);
     } else {
-      const other = [...fingers.entries()].find(([id]) => id !== event.pointerId)![1];
+      const other = [...fingers.entries()].find(([id]) => id !== event.pointerId)?.[1] ?? before;
       const factor = Math.abs(before - other) / Math.max(20, Math.abs(event.clientX - other));
       if (Number.isFinite(factor) && factor > 0) moves.zoom(factor, (other - box.left) / box.width);
     }

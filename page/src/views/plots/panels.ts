@@ -73,16 +73,19 @@ export function ownPanels(keys: readonly string[], channels: ReadonlyMap<string,
   }
   return [...byUnit.entries()].map(([place, those]) => ({
     id: `own-${place}`,
-    title: those.length === 1 ? (channels.get(those[0]!)?.words ?? those[0]!) : titleOf(those, channels),
+    title: titleOf(those, channels),
     channels: those,
     isDepth: place === 'depth',
   }));
 }
 
 function titleOf(keys: readonly string[], channels: ReadonlyMap<string, Channel>): string {
-  const unit = channels.get(keys[0]!)?.unit ?? '';
-  return unit ? `${keys.length} channels in ${unit}` : `${keys.length} channels`;
+  const [first] = keys.map((key) => channels.get(key));
+  if (keys.length === 1) return capital(first?.words ?? '');
+  return first?.unit ? `${keys.length} channels in ${first.unit}` : `${keys.length} channels`;
 }
+
+const capital = (words: string): string => words.slice(0, 1).toUpperCase() + words.slice(1);
 
 export function isDepthLike(channel: Channel): boolean {
   return channel.key.startsWith('depth') || channel.standard_name === 'depth';

@@ -9,9 +9,11 @@ export interface Trace {
 
 export type Traces = ReadonlyMap<string, Trace>;
 
+type Drawn = (number | null | undefined)[];
+
 export interface Aligned {
   readonly t: number[];
-  readonly values: (number | null | undefined)[][];
+  readonly values: Drawn[];
 }
 
 /**
@@ -19,40 +21,28 @@ export interface Aligned {
  * line goes on over it); null is a gap and stays one.
  */
 export function aligned(traces: readonly (Trace | undefined)[]): Aligned {
-  const present = traces.filter((trace): trace is Trace => trace !== undefined && trace.t.length > 0);
-  if (present.length === 1) {
-    const only = present[0]!;
-    return { t: [...only.t], values: traces.map((trace) => (trace === only ? [...only.value] : [])) };
-  }
-  const places = traces.map(() => 0);
+  const rows = traces.map((trace) => ({ t: trace?.t ?? [], value: trace?.value ?? [], place: 0, drawn: [] as Drawn }));
   const t: number[] = [];
-  const values: (number | null | undefined)[][] = traces.map(() => []);
   for (;;) {
-    const next = earliest(traces, places);
-    if (next === Infinity) return { t, values };
+    let next = Infinity;
+    for (const row of rows) next = Math.min(next, row.t[row.place] ?? Infinity);
+    if (next === Infinity) return { t, values: rows.map((row) => row.drawn) };
     t.push(next);
-    traces.forEach((trace, index) => {
-      const place = places[index]!;
-      const isHere = trace !== undefined && place < trace.t.length && trace.t[place] === next;
-      values[index]!.push(isHere ? trace.value[place] : undefined);
-      if (isHere) places[index] = place + 1;
-    });
+    for (const row of rows) {
+      const isHere = row.t[row.place] === next;
+      row.drawn.push(isHere ? row.value[row.place] : undefined);
+      if (isHere) row.place += 1;
+    }
   }
-}
-
-function earliest(traces: readonly (Trace | undefined)[], places: readonly number[]): number {
-  let next = Infinity;
-  traces.forEach((trace, index) => {
-    const t = trace?.t[places[index]!];
-    if (t !== undefined && t < next) next = t;
-  });
-  return next;
 }
 
 /** The greatest distance in time over which two samples still belong to one line. */
 export function gapAfter(period_s: number | null | undefined): number {
   return period_s && period_s > 0 ? 5 * period_s : Infinity;
 }
+
+/** The archive keeps whole microseconds: times that are nearer than that are one. */
+const SAME_S = 1.5e-6;
 
 /** The trace with later samples behind it; a null between two that are too far apart; older ones than begin fall off. */
 export function extended(
@@ -62,7 +52,7 @@ export function extended(
   const values = trace ? [...trace.value] : [];
   t.forEach((time, index) => {
     const last = times.at(-1);
-    if (last !== undefined && time <= last) return;
+    if (last !== undefined && time <= last + SAME_S) return;
     if (last !== undefined && time - last > gap_s && values.at(-1) !== null) {
       times.push((last + time) / 2);
       values.push(null);
@@ -71,7 +61,7 @@ export function extended(
     values.push(value[index] ?? null);
   });
   let first = 0;
-  while (first + 1 < times.length && times[first + 1]! < begin) first += 1;
+  while (first + 1 < times.length && (times[first + 1] ?? Infinity) < begin) first += 1;
   return {
     t: first ? times.slice(first) : times,
     value: first ? values.slice(first) : values,
@@ -83,18 +73,19 @@ export function extended(
 /** The place of the sample nearest to a time, among those that have a value; -1 where there is none. */
 export function nearest(trace: Trace | undefined, time: number): number {
   if (!trace || trace.t.length === 0) return -1;
+  const t = (place: number): number => trace.t[place] ?? NaN;
+  const has = (place: number): boolean => typeof trace.value[place] === 'number';
   let low = 0;
-  let high = trace.t.length - 1;
+  let high = trace.t.length;
   while (low < high) {
     const middle = (low + high) >> 1;
-    if (trace.t[middle]! < time) low = middle + 1;
+    if (t(middle) < time) low = middle + 1;
     else high = middle;
   }
-  let left = low;
-  while (left >= 0 && (trace.value[left] == null || trace.t[left]! > time)) left -= 1;
   let right = low;
-  while (right < trace.t.length && (trace.value[right] == null || trace.t[right]! < time)) right += 1;
-  if (left < 0) return right < trace.t.length ? right : -1;
+  while (right < trace.t.length && !has(right)) right += 1;
+  let left = low - 1;
+  while (left >= 0 && !has(left)) left -= 1;
   if (right >= trace.t.length) return left;
-  return time - trace.t[left]! <= trace.t[right]! - time ? left : right;
+  return left < 0 || t(right) - time < time - t(left) ? right : left;
 }

@@ -1,11 +1,13 @@
 """`stommel station serve`: vehicles, archive and page until Ctrl-C."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stommel.cli.numbers import number_option
 from stommel.cli.station.options import DatabaseOption, FolderOption, SettingsOption
 
 if TYPE_CHECKING:
@@ -38,8 +40,13 @@ def serve(
     model: Annotated[
         str | None, typer.Option("--model", metavar="VEHICLE", help="Vehicle file of --link, or a built-in one.")
     ] = None,
+    sitl: Annotated[
+        str | None,
+        typer.Option("--sitl", metavar="MISSION", help="Fly a simulated glider beside the station, reached by radio."),
+    ] = None,
     speed: Annotated[
-        float | None, typer.Option("--speed", help="Of the simulated vehicles of --link, times real time.")
+        float | None,
+        number_option("--speed", 0.1, 100.0, "", "Of simulated vehicles, times real time; 20 with --sitl if left out"),
     ] = None,
     settings: SettingsOption = None,
     folder: FolderOption = None,
@@ -67,12 +74,28 @@ def serve(
     """
     from stommel.station.settings import load_settings
 
-    told = {
+    told: dict[str, Any] = {
         "database": database, "folder": folder, "name": name, "host": host, "port": port, "certificate": certificate,
         "key_file": key_file, "behind_proxy": behind_proxy or None, "login": login or None,
         "vehicles": vehicles_told(link, vehicle, key, unsigned, model, speed),
     }  # fmt: skip
-    run(load_settings(settings, told))
+    with _simulated(sitl, speed, folder, told):
+        run(load_settings(settings, told))
+
+
+@contextmanager
+def _simulated(sitl: str | None, speed: float | None, folder: Path | None, told: dict[str, Any]) -> Iterator[None]:
+    """Fly a simulated glider beside the station, and add it to what the station is told."""
+    if sitl is None:
+        yield
+        return
+    from stommel.cli.station.simulated import SPEED, SimulatedGlider
+
+    known = list(told["vehicles"] or ())
+    number = next(n for n in range(1, 251) if n not in {vehicle["vehicle"] for vehicle in known})
+    with SimulatedGlider(sitl, speed or SPEED, folder or Path("station"), number) as glider:
+        told |= {"vehicles": [*known, glider.settings], "demo": True, "folder": glider.folder}
+        yield
 
 
 def vehicles_told(

@@ -8,9 +8,13 @@ import sys
 import time
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 from stommel.errors import StommelError
+from stommel.files.toml_reader import read_toml
 
+SPEED = 20.0
+"""Times real time, if nobody says."""
 PATIENCE = 5.0
 """Time for the glider to end by itself [s]."""
 
@@ -29,17 +33,26 @@ class SimulatedGlider:
     speed
         Times real time.
     folder
-        For its key, its log and what it says.
+        Of the station; its key, its log and what it prints lie there in `glider`.
     vehicle
         Its number.
+
+    Raises
+    ------
+    StommelError
+        There is no such mission, or it is none.
     """
 
     def __init__(self, scenario: str, speed: float, folder: Path, vehicle: int = 1) -> None:
-        self.scenario, self.speed, self.vehicle = scenario, speed, vehicle
-        self.key = folder / f"vehicle-{vehicle}.key"
-        self.words = folder / "glider.txt"
+        from stommel.simulation.scenario.shipped import mission_path
+
+        self.folder, self.speed, self.vehicle = folder, speed, vehicle
+        self._mission = mission_path(scenario)
+        self._told = read_toml(self._mission)
+        self._folder = folder / "glider"
+        self.key = self._folder / f"vehicle-{vehicle}.key"
+        self.words = self._folder / "glider.txt"
         """What it prints."""
-        self._folder = folder
         self._port = _free_port()
         self._process: subprocess.Popen[bytes] | None = None
 
@@ -47,6 +60,17 @@ class SimulatedGlider:
     def address(self) -> str:
         """Where the station reaches it."""
         return f"tcp:127.0.0.1:{self._port}"
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """How a station reaches it."""
+        model = str(self._told.get("vehicle", "zju"))
+        if model.endswith(".toml"):
+            model = str((self._mission.parent / model).resolve())
+        return {
+            "vehicle": self.vehicle, "name": f"Glider {self.vehicle}", "model": model,
+            "link": self.address, "key": self.key, "speed": self.speed, "simulated": True,
+        }  # fmt: skip
 
     @property
     def ended(self) -> str:
@@ -98,7 +122,7 @@ class SimulatedGlider:
     def _command(self) -> list[str]:
         return [
             sys.executable, "-c", "from stommel.cli import main; main()",
-            "sitl", "fly", self.scenario, "--speed", f"{self.speed:g}", "--no-live",
+            "sitl", "fly", os.fspath(self._mission.resolve()), "--speed", f"{self.speed:g}", "--no-live",
             "--link", f"tcp-listen:127.0.0.1:{self._port}", "--key", os.fspath(self.key),
             "--log", os.fspath(self._folder / "log"),
         ]  # fmt: skip

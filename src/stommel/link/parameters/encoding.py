@@ -64,6 +64,8 @@ def held(kind: ParameterKind, value: Value) -> Value:
     ParameterValueError
         They cannot.
     """
+    if kind is not ParameterKind.FLOAT32 and isinstance(value, float) and value.is_integer():
+        value = int(value)  # PARAMETER_OUTCOME tells every value as a double
     try:
         return value_of(kind, float_of(kind, value))
     except (struct.error, OverflowError):

@@ -1,18 +1,23 @@
 """Which alarms are open; each is written once, and told whatever the archive does."""
 
+import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from threading import Lock
 
+from sqlalchemy.exc import SQLAlchemyError
+
 from stommel.station.alarms.alarm import Alarm
 from stommel.station.alarms.change import Change
 from stommel.station.alarms.history import History
 from stommel.station.archive.errors import ArchiveError
+from stommel.station.archive.times import as_kept
 
 Tell = Callable[[Alarm], None]
 MOST_WAITING = 10_000
 """Changes, and alarms that wait for the archive; beyond it the oldest is forgotten."""
+_log = logging.getLogger(__name__)
 
 
 @dataclass(eq=False)
@@ -92,18 +97,18 @@ class Register:
 
     def _changed(self, vehicle: int | None, change: Change) -> _Raising | None:
         """Open or close an alarm; None if it is so already."""
-        place = vehicle, change.key
+        place, t = (vehicle, change.key), as_kept(change.t)
         with self._lock:
             raising = self._open.get(place)
             if change.raised == (raising is not None):
                 return None
             if raising is None:
                 raising = self._open[place] = _Raising(
-                    Alarm(None, vehicle, change.key, change.words, change.severity, change.t, change.value)
+                    Alarm(None, vehicle, change.key, change.words, change.severity, t, change.value)
                 )
             else:
                 del self._open[place]
-                raising.alarm = replace(raising.alarm, cleared=max(change.t, raising.alarm.raised))
+                raising.alarm = replace(raising.alarm, cleared=max(t, raising.alarm.raised))
         if not raising.is_waiting:
             raising.is_waiting = True
             self._waiting.append(raising)
@@ -123,6 +128,8 @@ class Register:
                     self._history.clear(number, raising.alarm.cleared)
             except ArchiveError as error:
                 return kept, str(error)
+            except SQLAlchemyError:  # no later try would help: it must not keep the others waiting
+                _log.exception("an alarm that the archive never takes: %s", raising.alarm)
             self._waiting.popleft()
             raising.is_waiting = False
             kept.append(raising)

@@ -20,6 +20,7 @@ from stommel.station.alarms.register import Register
 from stommel.station.alarms.severity import Severity
 from stommel.station.alarms.vehicle_watch import VehicleWatch
 from stommel.station.archive.archive import Archive
+from stommel.station.archive.times import as_kept
 
 ARCHIVE_FAILING, ALERTS_FAILING = "archive_failing", "alerts_failing"
 _WORDS: Mapping[str, tuple[str, Severity]] = {
@@ -157,7 +158,10 @@ class StationAlarms:
 
     def _run(self) -> None:
         while not self._stopped.wait(_LOOK_S):
-            self.look()
+            try:
+                self.look()
+            except Exception:  # noqa: BLE001 - nobody would know that alarms have ended
+                _log.exception("alarms")
 
     def _tell(self, alarm: Alarm) -> None:
         self._publish("alarm", alarm.vehicle, alarm.as_row())
@@ -180,7 +184,8 @@ class StationAlarms:
         """
         alarm = self.history.alarm(number)
         watched = self._watched.get(alarm.vehicle) if alarm is not None and alarm.vehicle is not None else None
-        return self._register.acknowledge(number, user, note, time.time() if watched is None else watched.now())
+        now = time.time() if watched is None else watched.now()
+        return self._register.acknowledge(number, user, note, as_kept(now))
 
     def limits_of(self, vehicle: int) -> list[Limit]:
         """Limits of a vehicle, by channel."""

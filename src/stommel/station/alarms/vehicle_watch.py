@@ -10,6 +10,7 @@ from stommel.station.alarms.contact_watch import Contact, ContactWatch
 from stommel.station.alarms.limit_watch import LimitWatch, Sample
 from stommel.station.alarms.limits import Limit, Naming
 from stommel.station.alarms.vehicle_alarms import VehicleAlarmWatch
+from stommel.station.archive.times import is_time
 
 ALARM_BITS = "vehicle_alarms"
 """Channel of the vehicle's own alarms."""
@@ -45,7 +46,8 @@ class VehicleWatch:
         return self.take([(key, t, value) for key, (t, value) in latest.items()])
 
     def take(self, samples: Sequence[Sample]) -> list[Change]:
-        """Take samples that came together."""
+        """Take samples that came together; those of a time that is none say nothing."""
+        samples = [sample for sample in samples if is_time(sample[1])]
         with self._lock:
             changes = self._limits.take(samples)
             bits = [(t, value) for key, t, value in samples if key == ALARM_BITS and isfinite(value) and value >= 0.0]

@@ -8,6 +8,7 @@ from stommel.files.whole import require_file, whole_file
 from stommel.station.archive.address import address_of, file_of, shown
 from stommel.station.archive.errors import ArchiveBrokenError, ArchiveRequestError, telling
 from stommel.station.archive.looking import require_there
+from stommel.station.archive.quiet_opening import quietly_opened
 
 
 def back_up(url: str, copy: Path) -> int:
@@ -53,7 +54,7 @@ def _plain(address: str) -> str:
 
 
 def _copy(file: Path, made: Path) -> None:
-    source = sqlite3.connect(f"{file.absolute().as_uri()}?mode=ro", uri=True, timeout=5.0)
+    source = quietly_opened(file)
     try:
         target = sqlite3.connect(made)
         try:

@@ -1,16 +1,16 @@
 """Looking at an archive without changing anything: not its version, not its file."""
 
-import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from sqlalchemy import URL, Connection, Engine, create_engine
+from sqlalchemy import URL, Connection, Engine, NullPool, create_engine
 
 from stommel.station.archive.address import file_of, shown
 from stommel.station.archive.connecting import engine_of
 from stommel.station.archive.errors import ArchiveRequestError, telling
 from stommel.station.archive.migrating import require_ours
+from stommel.station.archive.quiet_opening import quietly_opened
 
 
 def require_there(url: URL) -> None:
@@ -53,5 +53,4 @@ def looking(url: URL) -> Iterator[Connection]:
 
 
 def _reader_of(file: Path) -> Engine:
-    address = f"{file.absolute().as_uri()}?mode=ro"
-    return create_engine("sqlite://", creator=lambda: sqlite3.connect(address, uri=True, timeout=5.0))
+    return create_engine("sqlite://", creator=lambda: quietly_opened(file), poolclass=NullPool)

@@ -6,6 +6,7 @@ from pathlib import Path
 from sqlalchemy import Connection, inspect, text
 
 from stommel.station.archive.errors import ArchiveBrokenError, ArchiveError
+from stommel.station.archive.quiet_opening import quietly_opened
 
 CURRENT = "stommel_0001"
 """The version of schema.py: the last of migrations/versions."""
@@ -25,12 +26,12 @@ def require_ours(file: Path) -> None:
     if not file.exists() or file.stat().st_size == 0:
         return
     try:
-        connection = sqlite3.connect(f"{file.absolute().as_uri()}?mode=ro", uri=True)
+        connection = quietly_opened(file)
         try:
             names = {row[0] for row in connection.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
         finally:
             connection.close()
-    except sqlite3.DatabaseError as error:
+    except (OSError, sqlite3.Error) as error:
         if getattr(error, "sqlite_errorname", "").startswith(("SQLITE_NOTADB", "SQLITE_CORRUPT")):
             raise ArchiveBrokenError(
                 f"{file}: this is no archive, or a damaged one; it has been left as it is: restore a backup, or name"

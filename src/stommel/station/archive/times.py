@@ -7,7 +7,6 @@ from stommel.station.archive.errors import ArchiveRequestError
 GREATEST_TIME = 4102444800.0
 """The year 2100 [s since 1970]."""
 MINUTE_US = 60_000_000
-HOUR_US = 60 * MINUTE_US
 
 
 def microseconds(t: float) -> int:
@@ -26,6 +25,11 @@ def microseconds(t: float) -> int:
 def seconds(t_us: int) -> float:
     """A time of the archive in seconds since 1970."""
     return t_us / 1e6
+
+
+def as_kept(t: float) -> float:
+    """A time in seconds since 1970 as it comes back out of the archive; one that is none becomes the nearest."""
+    return seconds(microseconds(min(max(t, 0.0), GREATEST_TIME)))
 
 
 def is_time(t: float) -> bool:

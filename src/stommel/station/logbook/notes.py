@@ -7,7 +7,7 @@ from sqlalchemy import Row, and_, insert, or_, select
 
 from stommel.station.archive import Archive
 from stommel.station.archive.schema import notes as table
-from stommel.station.archive.times import microseconds, seconds
+from stommel.station.archive.times import as_kept, microseconds, seconds
 from stommel.station.logbook.searching import has_words
 
 
@@ -47,7 +47,7 @@ class Notes:
         )
         with self._archive.writing() as connection:
             number = int(connection.execute(row.returning(table.c.id)).scalar_one())
-        return Note(number, vehicle, t, written, user, words)
+        return Note(number, vehicle, as_kept(t), as_kept(written), user, words)
 
     def listed(
         self, *, vehicle: int | None = None, search: str = "", before: int | None = None, limit: int = 200

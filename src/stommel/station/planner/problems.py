@@ -50,6 +50,8 @@ class PlanError(StommelError):
 
 def problem(key: str, sentence: str) -> PlanProblem:
     """Take a sentence apart that names key, value and what is allowed, as all of stommel's do."""
+    if key and sentence.startswith(f"{key}: {key}"):  # said of a table as a whole, in words that name it already
+        key, sentence = "", sentence.removeprefix(f"{key}: ")
     found = _SENTENCE.fullmatch(sentence)
     value = (found["value"] or "") if found is not None else ""
     if not key and found is not None and len(found["key"]) <= _LONGEST_KEY:

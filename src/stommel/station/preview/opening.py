@@ -45,7 +45,7 @@ class Opened:
         return {"plan": self.plan, "remarks": list(self.remarks)}
 
 
-def opened(text: str, around: dict[str, Any]) -> Opened:
+def opened(text: str, around: dict[str, Any], origin: str = ORIGIN) -> Opened:
     """Return the plan of orders.
 
     Parameters
@@ -54,6 +54,8 @@ def opened(text: str, around: dict[str, Any]) -> Opened:
         Of the orders file.
     around
         What orders do not hold: `vehicle`, `start`, and if known `start_time` and `water`, as a plan has them.
+    origin
+        Names the orders in messages.
 
     Raises
     ------
@@ -63,7 +65,7 @@ def opened(text: str, around: dict[str, Any]) -> Opened:
         The vehicle or the water cannot be used.
     """
     vehicle = load_vehicle(around["vehicle"])
-    orders, header = parse_orders(text, ORIGIN, untrimmed_fingerprint(vehicle))
+    orders, header = parse_orders(text, origin, untrimmed_fingerprint(vehicle))
     told = around | _told(orders, header)
     mission = mission_of(plan_from(told))
     ballast, remarks = _ballast(orders, mission.deployment)

@@ -25,13 +25,17 @@ _FIRST = {
     "water": {"ocean": "south_china_sea"},
 }
 """Flown before it says that it can work, so that the machine code is there."""
+Progress = Callable[[float], None]
+"""Is called with the share that is done."""
+Answer = Callable[[Any, Progress], Any]
+"""What a document is answered with."""
 
 
 class _ToldToStopError(Exception):
     """The parent does not want the answer any more."""
 
 
-def work(channel: "connection.Connection[Any, Any]", answers: "dict[str, Answer] | None" = None) -> None:
+def work(channel: "connection.Connection[Any, Any]", answers: dict[str, Answer] | None = None) -> None:
     """Answer requests (kind, document) from a channel; `answers` stand in for the simulator, in tests."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's
     threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -44,10 +48,6 @@ def work(channel: "connection.Connection[Any, Any]", answers: "dict[str, Answer]
             return
         if kind in known:  # a late word to stop is none
             channel.send(_answer(channel, known[kind], document))
-
-
-Answer = Callable[[Any, Callable[[float], None]], Any]
-"""What a document is answered with; the second argument is called with the share that is done."""
 
 
 def _answer(channel: "connection.Connection[Any, Any]", answer: Answer, document: Any) -> tuple[str, Any]:

@@ -20,6 +20,9 @@ _GRACE = 2.0
 """In which a process that is told to stop may do so by itself [s]."""
 
 
+CANCELLED = "was cancelled"
+
+
 class SimulatorError(StommelError):
     """The simulator gave no answer."""
 
@@ -72,9 +75,10 @@ class Worker:
         """
         channel = self._started(stop, told)
         told(0.0)
+        late = f"the simulator took longer than {limit:g} s and was stopped; a shorter duration_days takes less"
         try:
             channel.send((kind, document))
-            return self._heard(channel, time.monotonic() + limit, limit, stop, told)
+            return self._heard(_Patience(channel, stop, limit, late), told)
         except (EOFError, OSError):
             self.close()
             raise SimulatorError(
@@ -104,26 +108,16 @@ class Worker:
         theirs.close()
         self._process, self._channel = process, ours
         try:
-            self._wait(ours, time.monotonic() + LONGEST_START, stop, "the simulator did not start in time")
-            word, _ = ours.recv()
+            word, _ = self._word(_Patience(ours, stop, LONGEST_START, "the simulator did not start in time"))
         except (EOFError, OSError):
             self.close()
             raise SimulatorError("the simulator could not be started; look at the station's own output") from None
         assert word == READY
         return ours
 
-    def _heard(
-        self,
-        channel: "Connection[Any, Any]",
-        until: float,
-        limit: float,
-        stop: Event,
-        told: Callable[[float | None], None],
-    ) -> Any:
-        late = f"the simulator took longer than {limit:g} s and was stopped; a shorter duration_days takes less"
+    def _heard(self, patience: "_Patience", told: Callable[[float | None], None]) -> Any:
         while True:
-            self._wait(channel, until, stop, late)
-            word, value = channel.recv()
+            word, value = self._word(patience)
             if word == SHARE:
                 told(float(value))
             elif word == DONE:
@@ -131,19 +125,36 @@ class Worker:
             elif word == REFUSED:
                 raise PlanError(PlanProblem(**row) for row in value)
             elif word == STOPPED:
-                raise CancelledError("was cancelled")
+                raise CancelledError(CANCELLED)
 
-    def _wait(self, channel: "Connection[Any, Any]", until: float, stop: Event, late: str) -> None:
-        """Wait for a word of the process; one that does not stop when it is told to, or is late, is ended."""
-        leave = None
-        while not channel.poll(_LOOK):
-            now = time.monotonic()
-            if stop.is_set() and leave is None:
-                leave = now + _GRACE
-                channel.send((STOPPED, None))
-            if leave is not None and now > leave:
-                self.close()
-                raise CancelledError("was cancelled")
-            if now > until:
-                self.close()
-                raise SimulatorError(late)
+    def _word(self, patience: "_Patience") -> tuple[str, Any]:
+        """Next word of the process; one that does not stop when it is told to, or is late, is ended."""
+        try:
+            while True:
+                patience.look()  # also at one that never pauses
+                if patience.channel.poll(_LOOK):
+                    word: tuple[str, Any] = patience.channel.recv()
+                    return word
+        except StommelError:
+            self.close()
+            raise
+
+
+class _Patience:
+    """How long an answer is waited for."""
+
+    def __init__(self, channel: "Connection[Any, Any]", stop: Event, limit: float, late: str) -> None:
+        self.channel = channel
+        self._stop, self._until, self._late = stop, time.monotonic() + limit, late
+        self._leave: float | None = None
+
+    def look(self) -> None:
+        """Tell the process once that nobody wants the answer any more; raise when the time is over."""
+        now = time.monotonic()
+        if self._stop.is_set() and self._leave is None:
+            self._leave = now + _GRACE
+            self.channel.send((STOPPED, None))
+        if self._leave is not None and now > self._leave:
+            raise CancelledError(CANCELLED)
+        if now > self._until:
+            raise SimulatorError(self._late)

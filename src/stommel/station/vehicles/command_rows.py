@@ -67,14 +67,14 @@ class CommandRows:
         """A command of a vehicle; None if there is none."""
         chosen = select(commands).where(commands.c.vehicle_id == vehicle, commands.c.id == id)
         with self._archive.reading() as connection:
-            found = connection.execute(chosen).mappings().one_or_none()
+            found = connection.execute(chosen).one_or_none()
         return None if found is None else _read(found)
 
     def open_ones(self, vehicle: int) -> list[CommandRow]:
         """Commands without a last word."""
         chosen = select(commands).where(commands.c.vehicle_id == vehicle, commands.c.state.not_in(LAST))
         with self._archive.reading() as connection:
-            return [_read(found) for found in connection.execute(chosen).mappings()]
+            return [_read(found) for found in connection.execute(chosen)]
 
     def page(self, vehicle: int, limit: int, before: float | None = None) -> list[CommandRow]:
         """The last commands of a vehicle, the newest first, given before a time [s since 1970]."""
@@ -82,7 +82,7 @@ class CommandRows:
         if before is not None:
             chosen = chosen.where(commands.c.given_us < microseconds(before))
         with self._archive.reading() as connection:
-            found = connection.execute(chosen.order_by(commands.c.given_us.desc()).limit(limit)).mappings()
+            found = connection.execute(chosen.order_by(commands.c.given_us.desc()).limit(limit))
             return [_read(row) for row in found]
 
     def history(self, id: str) -> Sequence[tuple[float, str, str]]:
@@ -105,9 +105,8 @@ def _stored(row: CommandRow) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _read(found: Mapping[str, Any]) -> CommandRow:
+def _read(row: Any) -> CommandRow:
     return CommandRow(
-        found["id"], found["vehicle_id"], found["user"], seconds(found["given_us"]), seconds(found["expires_us"]),
-        found["name"], found["parameters"], found["occasion"], found["state"], found["outcome"] or "",
-        seconds(found["changed_us"]),
+        row.id, row.vehicle_id, row.user, seconds(row.given_us), seconds(row.expires_us), row.name, row.parameters,
+        row.occasion, row.state, row.outcome or "", seconds(row.changed_us),
     )  # fmt: skip

@@ -2,8 +2,6 @@
 
 import secrets
 from collections.abc import Mapping, Sequence
-from concurrent.futures import Future
-from concurrent.futures import TimeoutError as TooLate
 from typing import Any
 
 from stommel.link.commands.client import LEAST_VALID, MOST_VALID
@@ -13,16 +11,14 @@ from stommel.link.shore.shore_end import ShoreEnd
 from stommel.station.archive import Archive
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
+from stommel.station.vehicles.asking import ask
 from stommel.station.vehicles.command_follower import CommandFollower
 from stommel.station.vehicles.command_rows import GIVEN, NOT_SENT, CommandRow, CommandRows
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.opening import MissingError, VehicleError
 
-ANSWER_WITHIN = 5.0
-"""Time for the line's thread to take a command [s]."""
 ABORT_VALID = 86_400.0
 """How long an abort is tried [s of the vehicle]."""
-_NOT_QUEUED = "the line did not take it; it was not sent"
 
 
 class Commands:
@@ -100,7 +96,7 @@ class Commands:
         row = self.find(vehicle, id)
         if not row.is_last:
             number = int(id, 16)
-            self._answer(self._lines[vehicle].ask(lambda end, t: end.commands.cancel(number, t)))
+            ask(self._lines[vehicle], lambda end, t: end.commands.cancel(number, t))
         return self._found(vehicle, row)
 
     def list(self, vehicle: int, limit: int = 100, before: float | None = None) -> Sequence[CommandRow]:
@@ -159,19 +155,11 @@ class Commands:
                 follower.queued(row, line.clock.of_link(t))
 
         try:
-            self._answer(line.ask(queue))
+            ask(line, queue)
         except (CommandError, VehicleError) as error:
             if is_kept:
                 self._rows.change(row.id, NOT_SENT, str(error), line.clock.now())
             raise
-
-    def _answer(self, future: "Future[None]") -> None:
-        try:
-            future.result(ANSWER_WITHIN)
-        except TooLate:
-            if future.cancel():
-                raise VehicleError(_NOT_QUEUED) from None
-            future.result(ANSWER_WITHIN)
 
     def _found(self, vehicle: int, row: CommandRow) -> CommandRow:
         return self._rows.find(vehicle, row.id) or row

@@ -19,8 +19,8 @@ LINK_EVERY = 10.0
 """Between two looks at the statistics of the link [s]."""
 NEAR = 60.0
 """A time that a message tells is believed if it is so near to when it came [s]."""
-UNSET_FOR = 30.0
-"""A simulated vehicle that has not told its clock for so long gets ours [s of the link]."""
+UNSET_FOR = 900.0
+"""A simulated vehicle that has not told its clock for so long gets ours [s since its boot, by itself]."""
 MICROSECOND = 1e-6
 
 Early = tuple[bytes, Sequence[Received], float]
@@ -70,8 +70,8 @@ class Ingest:
         if not clock.is_set:
             if data:
                 self._early.append((data, accepted, t))
-            if self._early and t - self._early[0][2] > UNSET_FOR * clock.speed:
-                clock.hear(min(max(t, FIRST), LAST), t)
+            if any(_since_boot(received) > UNSET_FOR for received in accepted):
+                clock.hear(min(max(t, FIRST), LAST), t)  # without a fix it may never know
             if not clock.is_set:
                 return
         for early in self._early:
@@ -188,6 +188,12 @@ class Ingest:
             t = at
         self._last_time[name] = t
         return t
+
+
+def _since_boot(received: Received) -> float:
+    """Time of the vehicle since its boot that a message tells [s]; 0 if it tells none."""
+    told = received.values.get("time_boot_ms", 0)
+    return 1e-3 * told if isinstance(told, int) else 0.0
 
 
 def _row(frame: RawFrame, direction: str, t: float) -> FrameRow:

@@ -66,8 +66,8 @@ class AlertTried(BaseModel):
 
 @router.get("/alarms")
 def read_alarms(
-    station: TheStation,
     _user: Viewer,
+    station: TheStation,
     vehicle: Annotated[int | None, Query(ge=1, le=250)] = None,
     is_open: Annotated[bool | None, Query(alias="open", description="True: still raised; false: over.")] = None,
     acknowledged: Annotated[bool | None, Query(description="Whether somebody has acknowledged them.")] = None,
@@ -82,7 +82,7 @@ def read_alarms(
 
 
 @router.post("/alarms/{alarm}/acknowledge")
-def acknowledge_alarm(alarm: AlarmNumber, body: Acknowledgement, station: TheStation, user: Pilot) -> AlarmRow:
+def acknowledge_alarm(user: Pilot, alarm: AlarmNumber, body: Acknowledgement, station: TheStation) -> AlarmRow:
     """Say that you have seen an alarm, and what you do about it; it stays open until its cause is gone."""
     try:
         seen = station.alarms.acknowledge(alarm, user.name, body.note.strip())
@@ -92,13 +92,13 @@ def acknowledge_alarm(alarm: AlarmNumber, body: Acknowledgement, station: TheSta
 
 
 @router.get("/vehicles/{vehicle}/limits")
-def read_limits(line: Line, station: TheStation, _user: Viewer) -> list[Limit]:
+def read_limits(_user: Viewer, line: Line, station: TheStation) -> list[Limit]:
     """Limits of a vehicle's channels."""
     return station.alarms.limits_of(line.vehicle)
 
 
 @router.put("/vehicles/{vehicle}/limits/{channel}")
-def put_limit(channel: ChannelKey, body: LimitValues, line: Line, station: TheStation, user: Pilot) -> Limit:
+def put_limit(user: Pilot, channel: ChannelKey, body: LimitValues, line: Line, station: TheStation) -> Limit:
     """Set the limit of a channel, in place of the one before."""
     if channel_named(channel) is None:
         raise refusal(404, "there is no such channel", key="channel", value=channel, allowed="a key of /channels")
@@ -108,14 +108,14 @@ def put_limit(channel: ChannelKey, body: LimitValues, line: Line, station: TheSt
 
 
 @router.delete("/vehicles/{vehicle}/limits/{channel}", status_code=204)
-def delete_limit(channel: ChannelKey, line: Line, station: TheStation, user: Pilot) -> None:
+def delete_limit(user: Pilot, channel: ChannelKey, line: Line, station: TheStation) -> None:
     """Watch a channel no more; its alarm ends."""
     if not station.alarms.remove_limit(line.vehicle, channel, user.name):
         raise refusal(404, "this channel has no limit", key="channel", value=channel)
 
 
 @router.get("/alerts")
-def read_alerts(station: TheStation, _user: Viewer) -> AlertInfo:
+def read_alerts(_user: Viewer, station: TheStation) -> AlertInfo:
     """How people who are away are told of alarms; it is set in station.toml."""
     settings = station.settings.alerts
     told: dict[str, Any] = settings.model_dump(include={"least_severity", "quiet_s", "cleared"})
@@ -123,6 +123,6 @@ def read_alerts(station: TheStation, _user: Viewer) -> AlertInfo:
 
 
 @router.post("/alerts/test")
-def send_test_alert(station: TheStation, user: Admin) -> list[AlertTried]:
+def send_test_alert(user: Admin, station: TheStation) -> list[AlertTried]:
     """Send a word along every way now, and tell what became of it."""
     return [AlertTried(**tried._asdict()) for tried in station.alarms.alerts.test(user.name)]

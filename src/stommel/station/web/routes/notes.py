@@ -69,8 +69,8 @@ class LogPage(BaseModel):
 
 @router.get("/notes")
 def read_notes(
-    station: TheStation,
     _user: Viewer,
+    station: TheStation,
     vehicle: Annotated[int | None, Query(ge=1, le=250)] = None,
     search: Search = "",
     before: Annotated[int | None, Query(ge=1, le=GREATEST_NUMBER, description="The last note of a page.")] = None,
@@ -82,7 +82,7 @@ def read_notes(
 
 
 @router.post("/notes", status_code=201)
-def add_note(body: NewNote, station: TheStation, user: Pilot) -> NoteRow:
+def add_note(user: Pilot, body: NewNote, station: TheStation) -> NoteRow:
     """Write a note; it stays as it is, with your name and the time."""
     if body.vehicle is not None and body.vehicle not in station.vehicles:
         known = ", ".join(map(str, station.vehicles)) or "none"
@@ -99,9 +99,9 @@ def add_note(body: NewNote, station: TheStation, user: Pilot) -> NoteRow:
 
 @router.get("/vehicles/{vehicle}/log")
 def read_log(
+    _user: Viewer,
     line: Line,
     station: TheStation,
-    _user: Viewer,
     kinds: Annotated[list[Kind] | None, Query(max_length=10, description="What is wanted; all if left out.")] = None,
     search: Search = "",
     before: Annotated[

@@ -5,8 +5,13 @@ from typing import Any
 from fastapi import APIRouter
 from pydantic import BaseModel
 
+from stommel.station.alarms.limits import LimitValues
 from stommel.station.channels import CHANNELS, channel_named, is_stale
+from stommel.station.shape import shape_of
+from stommel.station.states import state_machine
+from stommel.station.watching import file_of
 from stommel.station.web.access import Viewer
+from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation
 
 router = APIRouter(prefix="/api", tags=["vehicles"])
@@ -118,10 +123,67 @@ class ChannelInfo(BaseModel):
     values: dict[int, str] | None = None
 
 
+class StateMachine(BaseModel):
+    """States and phases; a transition is from, to, and when."""
+
+    states: list[str]
+    transitions: list[tuple[str, str, str]]
+    phases: list[str]
+    """Of the dive cycle, in the state `mission`."""
+    phase_transitions: list[tuple[str, str, str]]
+
+
+class WingShape(BaseModel):
+    """A wing; its place is of the vehicle file, its outline a usual one."""
+
+    x_m: float
+    span_m: float
+    chord_m: float
+    sweep_deg: float
+
+
+class RudderShape(BaseModel):
+    """A rudder."""
+
+    x_m: float
+    z_m: float
+    height_m: float
+    chord_m: float
+    travel_deg: float | None
+
+
+class Shape(BaseModel):
+    """How a vehicle looks; x is forward of the centre of buoyancy, z down."""
+
+    name: str
+    length_m: float
+    diameter_m: float
+    overall_length_m: float | None
+    profile: list[tuple[float, float]]
+    """Place along the body and radius there, from the tail to the nose [m]."""
+    wings: WingShape | None
+    rudder: RudderShape | None
+    antenna_m: list[float] | None
+    moving_mass_range_m: list[float] | None
+    moving_mass_neutral_m: float
+    bladder_range_ml: list[float] | None
+    bladder_m: list[float] | None
+    assumed: list[str]
+    """What the vehicle file does not have."""
+
+
+class LimitInfo(LimitValues):
+    """What a channel may be, and when somebody is told that it is not."""
+
+    channel: str
+
+
 class VehicleDetail(VehicleSummary):
     """How a vehicle is, and what it has."""
 
     channels: list[ChannelInfo]
+    limits: list[LimitInfo]
+    shape: Shape | None
 
 
 class LatestValue(BaseModel):
@@ -152,13 +214,31 @@ def list_vehicles(_user: Viewer, station: TheStation) -> list[VehicleSummary]:
 def show_vehicle(_user: Viewer, line: Line, station: TheStation) -> VehicleDetail:
     """Return how a vehicle is, with its channels."""
     summary: dict[str, Any] = station.summary(line.vehicle)
-    return VehicleDetail.model_validate(summary | {"channels": _channels()})
+    file = file_of(line.settings.model)
+    limits = [limit.model_dump() for limit in station.alarms.limits_of(line.vehicle)]
+    shape = None if file is None else shape_of(file)
+    return VehicleDetail.model_validate(summary | {"channels": _channels(), "limits": limits, "shape": shape})
 
 
 @router.get("/vehicles/{vehicle}/channels")
 def list_channels(_user: Viewer, line: Line) -> list[ChannelInfo]:  # noqa: ARG001 - 404 for what is not there
     """Return what the values of a vehicle are called, and what they mean."""
     return _channels()
+
+
+@router.get("/vehicles/{vehicle}/states")
+def show_states(_user: Viewer, line: Line) -> StateMachine:  # noqa: ARG001 - as above
+    """Return the state machine of a vehicle, for a diagram."""
+    return StateMachine.model_validate(state_machine())
+
+
+@router.get("/vehicles/{vehicle}/shape")
+def show_shape(_user: Viewer, line: Line) -> Shape:
+    """Return how a vehicle looks, from its vehicle file."""
+    file = file_of(line.settings.model)
+    if file is None:
+        raise refusal(404, f"vehicle {line.vehicle} has no vehicle file: {line.settings.model} is none")
+    return Shape.model_validate(shape_of(file))
 
 
 @router.get("/vehicles/{vehicle}/latest")

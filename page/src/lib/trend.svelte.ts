@@ -1,0 +1,61 @@
+// The last stretch of one channel, for a small curve: from the archive, then on by itself.
+
+import { api } from './api';
+import { clock } from './clock.svelte';
+import { live } from './live.svelte';
+import type { SeriesAnswer } from './types';
+
+export interface Points {
+  t: number[];
+  value: (number | null)[];
+}
+
+const POINTS = 240;
+const RELOAD_MS = 120_000;
+
+export class Trend {
+  points = $state.raw<Points>({ t: [], value: [] });
+  readonly span: number;
+  private readonly vehicle: number;
+  private readonly channel: string;
+
+  constructor(vehicle: number, channel: string, span_s: number) {
+    this.vehicle = vehicle;
+    this.channel = channel;
+    this.span = span_s;
+  }
+
+  /** Keeps it up to date until the function that comes back is called. */
+  follow(): () => void {
+    const timer = setInterval(() => void this.load(), RELOAD_MS);
+    const opened = live.onOpen(() => void this.load());
+    const ended = live.subscribe(this.vehicle, [this.channel], {
+      values: (values) => {
+        const told = values[this.channel];
+        if (told) this.add(told[0], told[1]);
+      },
+    });
+    void this.load();
+    return () => {
+      clearInterval(timer);
+      opened();
+      ended();
+    };
+  }
+
+  private add(t: number, value: number): void {
+    const last = this.points.t.at(-1);
+    if (last === undefined || t < last + this.span / POINTS) return;
+    const first = Math.max(0, this.points.t.findIndex((one) => one > t - this.span));
+    this.points = { t: [...this.points.t.slice(first), t], value: [...this.points.value.slice(first), value] };
+  }
+
+  private async load(): Promise<void> {
+    const end = clock.now(this.vehicle);
+    if (end === undefined) return;
+    const query = { channels: this.channel, begin: end - this.span, end, points: POINTS };
+    const answer = await api.get<SeriesAnswer>(`/vehicles/${this.vehicle}/series`, query).catch(() => undefined);
+    const found = answer?.channels[this.channel];
+    if (found) this.points = { t: found.t, value: found.value };
+  }
+}

@@ -1,0 +1,78 @@
+/** Files of a vehicle and their transfers, as the page shows them. */
+
+import { plainState, type Tone } from '../commands/model';
+
+export interface Entry {
+  name: string;
+  size: number;
+  is_folder: boolean;
+}
+
+export interface Transfer {
+  id: number | string;
+  path: string;
+  direction: 'download' | 'upload';
+  state: string;
+  is_paused: boolean;
+  is_over: boolean;
+  reason: string;
+  done: number;
+  size: number | null;
+  rate: number | null;
+  seconds_left: number | null;
+  user?: string | null;
+}
+
+export interface StoredFile {
+  id: number;
+  path: string;
+  size: number | null;
+  sha256: string | null;
+  t: number;
+  state: string;
+}
+
+/** How much of a file is there, 0 to 1; null before its size is known. */
+export function shareOf(transfer: Transfer): number | null {
+  if (/whole|done/.test(transfer.state)) return 1;
+  return transfer.size ? Math.min(1, transfer.done / transfer.size) : null;
+}
+
+/** What a transfer is doing, in words. */
+export function transferWords(transfer: Transfer): string {
+  const state = plainState(transfer.state);
+  if (transfer.is_over) return transfer.reason ? `${state}: ${transfer.reason}` : state;
+  if (transfer.is_paused) return 'paused; goes on where it was';
+  return transfer.reason || state;
+}
+
+export function transferTone(transfer: Transfer): Tone {
+  if (!transfer.is_over) return transfer.is_paused ? '' : 'accent';
+  if (/whole|done/.test(transfer.state)) return 'ok';
+  return /cancel/.test(transfer.state) ? '' : 'warning';
+}
+
+/** The folder above a path; the root's is the root. */
+export function above(path: string): string {
+  return path.split('/').filter(Boolean).slice(0, -1).join('/');
+}
+
+/** A name in a folder. */
+export function inside(folder: string, name: string): string {
+  return folder ? `${folder}/${name}` : name;
+}
+
+/** Folders from the root to a path: name and path of each. */
+export function crumbs(path: string): { name: string; path: string }[] {
+  const parts = path.split('/').filter(Boolean);
+  return parts.map((name, index) => ({ name, path: parts.slice(0, index + 1).join('/') }));
+}
+
+/** What is wrong with a path that a file shall get, in words; empty if nothing is. */
+export function pathProblem(path: string): string {
+  const parts = path.split('/');
+  if (path.trim() === '') return 'give the file a name';
+  if (path.length > 200) return 'at most 200 characters';
+  if (parts.some((part) => part === '' || part === '.' || part === '..')) return 'no empty, “.” or “..” folders';
+  return '';
+}

@@ -1,0 +1,126 @@
+// The log book of a vehicle, the newest first, page by page; what happens meanwhile comes in at the top.
+
+import { api, sentence } from '../../lib/api';
+import { live } from '../../lib/live.svelte';
+import type { EventKind } from '../../lib/types';
+
+export interface LogEntry {
+  readonly kind: 'note' | 'command' | 'mission' | 'alarm';
+  readonly id: string;
+  readonly t: number;
+  readonly user: string | null;
+  readonly words: string;
+  readonly state: string | null;
+}
+
+interface LogPage {
+  readonly entries: readonly LogEntry[];
+  readonly next: string | null;
+}
+
+const PAGE = 100;
+const REST_MS = 250;
+const KINDS: readonly EventKind[] = ['note', 'command', 'mission', 'alarm'];
+
+export class Feed {
+  entries = $state.raw<readonly LogEntry[]>();
+  next = $state<string | null>(null);
+  failure = $state<string>();
+  isBusy = $state(false);
+  #kinds: readonly string[] = [];
+  #search = '';
+  #number = 0;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #ends: (() => void)[];
+
+  constructor(readonly vehicle: number) {
+    const again = (): void => this.#soon(() => void this.#refresh());
+    this.#ends = KINDS.map((kind) => live.on(kind, (event) => event.vehicle === vehicle && again()));
+    this.#ends.push(live.onOpen(again));
+  }
+
+  /** Shows entries of some kinds that have some words; all kinds if none is named. */
+  find(kinds: readonly string[], search: string): void {
+    this.#kinds = kinds;
+    this.#search = search.trim();
+    this.#number += 1;
+    this.#soon(() => void this.#begin());
+  }
+
+  async older(): Promise<void> {
+    if (this.next === null || this.isBusy) return;
+    await this.#ask(this.next, (page) => {
+      this.entries = [...(this.entries ?? []), ...page.entries];
+      this.next = page.next;
+    });
+  }
+
+  close(): void {
+    clearTimeout(this.#timer);
+    this.#number += 1;
+    this.#ends.forEach((end) => end());
+  }
+
+  #soon(action: () => void): void {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(action, this.entries === undefined ? 0 : REST_MS);
+  }
+
+  #begin(): Promise<void> {
+    return this.#ask(null, (page) => {
+      this.entries = page.entries;
+      this.next = page.next;
+    });
+  }
+
+  /** The newest page again; older ones that were read stay. */
+  #refresh(): Promise<void> {
+    return this.#ask(null, (page) => {
+      const last = page.entries.at(-1);
+      const fresh = new Set(page.entries.map(keyOf));
+      const older = last === undefined ? [] : (this.entries ?? []).filter((one) => one.t <= last.t && !fresh.has(keyOf(one)));
+      this.entries = [...page.entries, ...older];
+      if (older.length === 0) this.next = page.next;
+    });
+  }
+
+  async #ask(before: string | null, take: (page: LogPage) => void): Promise<void> {
+    const number = this.#number;
+    const query = new URLSearchParams(this.#kinds.map((kind) => ['kinds', kind]));
+    query.set('limit', String(PAGE));
+    if (this.#search) query.set('search', this.#search);
+    if (before !== null) query.set('before', before);
+    this.isBusy = true;
+    try {
+      const page = await api.get<LogPage>(`/vehicles/${this.vehicle}/log?${query.toString()}`);
+      if (number !== this.#number) return;
+      take(page);
+      this.failure = undefined;
+    } catch (error) {
+      if (number === this.#number) this.failure = sentence(error);
+    } finally {
+      this.isBusy = false;
+    }
+  }
+}
+
+export function keyOf(entry: LogEntry): string {
+  return `${entry.kind}/${entry.id}`;
+}
+
+export interface LogDay {
+  readonly day: string;
+  readonly entries: LogEntry[];
+}
+
+/** Entries by their days, UTC. */
+export function byDay(entries: readonly LogEntry[], dayOf: (t: number) => string): LogDay[] {
+  const days: LogDay[] = [];
+  for (const entry of entries) {
+    const day = dayOf(entry.t);
+    const last = days.at(-1);
+    if (last?.day === day) last.entries.push(entry);
+    else days.push({ day, entries: [entry] });
+  }
+  return days;
+}

@@ -1,0 +1,163 @@
+"""Missions as people give them: kept with who and hash, sent whole, and compared with what the vehicle holds."""
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from math import degrees
+from typing import Any
+
+from stommel.control.orders_file import parse_orders
+from stommel.errors import StommelError
+from stommel.link.shore.shore_end import ShoreEnd
+from stommel.station.archive import Archive
+from stommel.station.live.events import Happening
+from stommel.station.live.hub import Hub
+from stommel.station.vehicles.asking import ask
+from stommel.station.vehicles.line import VehicleLine
+from stommel.station.vehicles.mission_follower import MOST_WAITING, MissionFollower, Task
+from stommel.station.vehicles.mission_rows import WAITING, MissionRow, MissionRows, MissionState
+from stommel.station.vehicles.opening import MissingError, vehicle_folder
+
+
+class MissionError(StommelError):
+    """A mission cannot be given now."""
+
+
+class Missions:
+    """Missions of the vehicles of a station.
+
+    Parameters
+    ----------
+    archive, hub
+        Of the station.
+    lines
+        By vehicle; those that come later too.
+    """
+
+    def __init__(self, archive: Archive, hub: Hub, lines: Mapping[int, VehicleLine]) -> None:
+        self._rows, self._hub, self._lines = MissionRows(archive), hub, lines
+        self._followers: dict[int, MissionFollower] = {}
+
+    def follow(self, line: VehicleLine) -> None:
+        """Take in a vehicle, before its line is started."""
+        folder = vehicle_folder(line.folder, line.vehicle) / "orders"
+        follower = self._followers[line.vehicle] = MissionFollower(self._rows, folder, self._tell)
+        line.followers.append(follower)
+
+    def upload(
+        self,
+        vehicle: int,
+        user: str,
+        orders: str,
+        *,
+        plan: Mapping[str, Any] | None = None,
+        preview: Mapping[str, Any] | None = None,
+        valid_for_s: float,
+    ) -> MissionRow:
+        """Give orders to a vehicle: written down, then sent; it takes them whole, or keeps those that it has.
+
+        Raises
+        ------
+        FileError
+            The text is no orders file.
+        MissionError
+            Too many wait.
+        """
+        _, header = parse_orders(orders, "orders")
+        line, follower = self._lines[vehicle], self._followers[vehicle]
+        if follower.waiting >= MOST_WAITING:
+            raise MissionError(f"vehicle {vehicle}: {MOST_WAITING} requests about missions wait for it")
+        sha256 = hashlib.sha256(orders.encode()).hexdigest()
+        row = MissionRow(0, vehicle, line.clock.now(), user, header.mission, sha256, orders, plan, WAITING)
+        row = self._rows.add(row, "waits to be sent", preview)
+        ask(line, lambda _end, _t: follower.put(Task("upload", user, row, valid_for_s)))
+        self._tell(vehicle, row.id)
+        return row
+
+    def roll_back(self, vehicle: int, user: str, valid_for_s: float) -> None:
+        """Let the vehicle hold the orders before its present ones.
+
+        Raises
+        ------
+        MissionError
+            It holds none, or nobody knows yet.
+        """
+        line, follower = self._lines[vehicle], self._followers[vehicle]
+        if follower.held is None:
+            raise MissionError(f"vehicle {vehicle}: it is not known what it holds: {follower.words}")
+        if not follower.held.previous:
+            raise MissionError(f"vehicle {vehicle}: it holds no orders before the present ones")
+        ask(line, lambda _end, _t: follower.put(Task("roll-back", user, None, valid_for_s)))
+
+    def aboard(self, vehicle: int) -> dict[str, Any]:
+        """Which mission the vehicle holds, and what is on its way, as the API tells it."""
+        line, follower = self._lines[vehicle], self._followers[vehicle]
+
+        def look(_: ShoreEnd, t: float) -> tuple[Task | None, dict[str, Any] | None]:
+            task = follower.current
+            is_upload = task is not None and task.row is not None
+            return task, follower.progress(line, t)._asdict() if is_upload else None
+
+        task, progress = ask(line, look)
+        held, missing = follower.held, follower.words or None
+        row = None if held is None or not held.sha256 else self._rows.of_hash(vehicle, held.sha256.hex())
+        upload = None if task is None or task.row is None else self.told(task.row) | {"progress": progress}
+        if held is not None and not held.sha256:
+            missing = "the vehicle holds no mission"
+        elif held is not None and row is None:
+            missing = missing or "its orders are being fetched"
+        flown = {"waypoints": [], "depth_m": None} if row is None else _flown(row)
+        return {
+            "number": None if held is None else held.number, "name": None if held is None else held.name or None,
+            "sha256": None if held is None else held.sha256.hex(),
+            "previous_sha256": None if held is None else held.previous.hex(),
+            "t": None if held is None else follower.held_at,
+            "missing": missing, "waiting": follower.waiting, "upload": upload,
+            "mission": None if row is None else self.told(row), **flown,
+        }  # fmt: skip
+
+    def list(self, vehicle: int, limit: int) -> Sequence[MissionRow]:
+        """The last missions of a vehicle, the newest first."""
+        return self._rows.page(vehicle, limit)
+
+    def find(self, vehicle: int, id: int) -> tuple[MissionRow, Sequence[MissionState]]:
+        """A mission, and what became of it.
+
+        Raises
+        ------
+        MissingError
+            There is no such mission.
+        """
+        row = self._rows.find(vehicle, id)
+        if row is None:
+            raise MissingError(f"vehicle {vehicle} has no mission {id}")
+        return row, self._rows.history(id)
+
+    def told(self, row: MissionRow) -> dict[str, Any]:
+        """A mission as lists of the API tell it."""
+        history = self._rows.history(row.id)
+        found = row._asdict() | {"words": history[-1].words if history else ""}
+        if history:
+            found["state"] = history[-1].state
+        del found["orders"], found["plan"]
+        return found
+
+    def _tell(self, vehicle: int, id: int | None) -> None:
+        row = None if id is None else self._rows.find(vehicle, id)
+        data = {"aboard": True} if row is None else self.told(row)
+        self._hub.publish(Happening("mission", vehicle, data))
+
+
+def _flown(row: MissionRow) -> dict[str, Any]:
+    """What of a mission a map shows."""
+    try:
+        orders, _ = parse_orders(row.orders, "orders")
+    except StommelError as error:
+        return {"waypoints": [], "depth_m": None, "missing": f"its orders cannot be read here: {error}"[:300]}
+    places = [
+        {
+            "latitude": degrees(float(latitude)), "longitude": degrees(float(longitude)),
+            "radius_m": float(orders.radius),
+        }
+        for latitude, longitude in orders.waypoints
+    ]  # fmt: skip
+    return {"waypoints": places, "depth_m": float(orders.dives.depth)}

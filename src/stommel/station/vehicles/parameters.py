@@ -1,0 +1,126 @@
+"""Parameters of vehicles as people see and set them, with their history."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from stommel.errors import StommelError
+from stommel.link.endings import Ending
+from stommel.link.parameters.known import KnownSet
+from stommel.link.shore.shore_end import ShoreEnd
+from stommel.station.archive import Archive
+from stommel.station.live.events import Happening
+from stommel.station.live.hub import Hub
+from stommel.station.vehicles.asking import ask
+from stommel.station.vehicles.line import VehicleLine
+from stommel.station.vehicles.opening import MissingError
+from stommel.station.vehicles.parameter_follower import WITHIN, ParameterFollower, Write
+from stommel.station.vehicles.parameter_rows import ParameterRow, ParameterRows
+
+MOST_WAITING = 50
+"""Writings of one vehicle that wait for it."""
+
+
+class ParameterError(StommelError):
+    """A parameter cannot be set."""
+
+
+class Parameters:
+    """Parameters of the vehicles of a station.
+
+    Parameters
+    ----------
+    archive, hub
+        Of the station.
+    lines
+        By vehicle; those that come later too.
+    """
+
+    def __init__(self, archive: Archive, hub: Hub, lines: Mapping[int, VehicleLine]) -> None:
+        self._rows, self._hub, self._lines = ParameterRows(archive), hub, lines
+        self._followers: dict[int, ParameterFollower] = {}
+
+    def follow(self, line: VehicleLine) -> None:
+        """Take in a vehicle, before its line is started."""
+        follower = self._followers[line.vehicle] = ParameterFollower(self._rows, self._tell)
+        line.followers.append(follower)
+
+    def known(self, vehicle: int) -> dict[str, Any]:
+        """All parameters as they are known now, as the API tells them."""
+        follower = self._followers[vehicle]
+
+        def look(end: ShoreEnd, t: float) -> dict[str, Any]:
+            client = end.parameters
+            progress = client.progress(t)
+            ended = {outcome.component: outcome for outcome in client.refreshed or ()}
+            running = client.refreshed is None and progress.of > 0
+            return {
+                "refreshing": progress._asdict() if running else None,
+                "components": [
+                    {
+                        "component": known.component, "name": known.name, "state": known.state.name.lower(),
+                        "whole": known.component in ended and ended[known.component].ending is Ending.WHOLE,
+                        "reason": ended[known.component].words if known.component in ended else "not asked for yet",
+                        "parameters": _described(known, follower.latest or {}),
+                    }
+                    for known in sorted(client.known.sets.values(), key=lambda each: each.component)
+                ],
+                "missing": [
+                    {"component": outcome.component, "name": outcome.name, "reason": outcome.words}
+                    for outcome in ended.values()
+                    if outcome.component not in client.known.sets
+                ],
+                "notes": list(client.known.notes),
+                "writes": [write.told() for write in reversed(follower.writes)],
+            }  # fmt: skip
+
+        return ask(self._lines[vehicle], look)
+
+    def refresh(self, vehicle: int) -> None:
+        """Ask the vehicle for all; what has not changed costs one message."""
+        ask(self._lines[vehicle], lambda end, t: end.parameters.refresh(t, WITHIN))
+
+    def write(self, vehicle: int, user: str, component: int, name: str, value: float) -> Write:
+        """Begin to set a parameter; what becomes of it is told as it happens.
+
+        Raises
+        ------
+        MissingError
+            It is not known that there is such a parameter.
+        StommelError
+            It cannot have the value, or too many writings wait.
+        """
+        line, follower = self._lines[vehicle], self._followers[vehicle]
+
+        def begin(end: ShoreEnd, t: float) -> Write:
+            known = end.parameters.known.sets.get(component)
+            if known is None or known.number(name) is None:
+                raise MissingError(
+                    f"vehicle {vehicle} has told of no parameter {name} of component {component}; refresh them first"
+                )
+            if sum(write.state == "waiting" for write in follower.writes) >= MOST_WAITING:
+                raise ParameterError(f"vehicle {vehicle}: {MOST_WAITING} writings wait for it; wait for some of them")
+            ticket = end.parameters.write(component, name, value, WITHIN)
+            write = Write(ticket, component, name, value, user, line.clock.of_link(t))
+            follower.writes.append(write)
+            return write
+
+        return ask(line, begin)
+
+    def history(self, vehicle: int, component: int, name: str, limit: int) -> Sequence[ParameterRow]:
+        """Values of a parameter, the newest first."""
+        return self._rows.history(vehicle, component, name, limit)
+
+    def _tell(self, vehicle: int, told: dict[str, Any]) -> None:
+        self._hub.publish(Happening("parameter", vehicle, told))
+
+
+def _described(known: KnownSet, latest: Mapping[tuple[int, str], ParameterRow]) -> list[dict[str, Any]]:
+    found = []
+    for described, value in zip(known.descriptions, known.values, strict=True):
+        row = latest.get((known.component, described.id))
+        found.append({
+            "name": described.id, "kind": described.kind.name.lower(), "value": value, "default": described.default,
+            "low": described.low, "high": described.high, "unit": described.unit, "words": described.words,
+            "since": None if row is None else row.t, "user": None if row is None else row.user,
+        })  # fmt: skip
+    return found

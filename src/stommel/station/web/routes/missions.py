@@ -1,0 +1,181 @@
+"""Missions of a vehicle: what it holds, what it was given by whom, and giving it another."""
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Path, Query
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from stommel.station.planner.flown import current_of_last_dive
+from stommel.station.planner.plan import StationPlan
+from stommel.station.planner.problems import plan_from
+from stommel.station.planner.resolving import resolved
+from stommel.station.station import Station
+from stommel.station.vehicles.line import VehicleLine
+from stommel.station.web.access import Holder, Viewer
+from stommel.station.web.found import Line, TheStation
+from stommel.vehicle import builtin_names
+
+router = APIRouter(prefix="/api", tags=["missions"])
+
+MOST_ORDERS = 1_000_000
+LEAST_VALID, MOST_VALID, USUAL = 60.0, 604_800.0, 6 * 3600.0
+Validity = Annotated[float, Field(ge=LEAST_VALID, le=MOST_VALID, allow_inf_nan=False)]
+
+
+class Mission(BaseModel):
+    """A mission; times are of the vehicle's clock [s since 1970]."""
+
+    id: int
+    vehicle: int
+    t: float
+    user: str | None
+    """Who gave it; null: it was found aboard."""
+    name: str
+    sha256: str
+    state: str
+    """waiting, sending, aboard, replaced, refused, failed or interrupted."""
+    words: str
+    """Why, or what was last told of it."""
+
+
+class MissionStep(BaseModel):
+    """What a mission was from a time on."""
+
+    t: float
+    user: str | None
+    state: str
+    words: str
+
+
+class MissionDetail(Mission):
+    """A mission with its orders and what became of it."""
+
+    orders: str
+    plan: dict[str, Any] | None
+    history: list[MissionStep]
+
+
+class Waypoint(BaseModel):
+    """A waypoint [deg], and within which distance it is reached."""
+
+    latitude: float
+    longitude: float
+    radius_m: float
+
+
+class UploadProgress(BaseModel):
+    """Bytes."""
+
+    done: int
+    of: int
+    seconds_left: float | None
+
+
+class MissionOnItsWay(Mission):
+    """A mission that is being sent."""
+
+    progress: UploadProgress | None
+
+
+class MissionAboard(BaseModel):
+    """Which mission a vehicle holds, and what is on its way; null where that is not known."""
+
+    number: int | None
+    name: str | None
+    sha256: str | None
+    """Empty for none."""
+    previous_sha256: str | None
+    """Of the mission before, to which it can be rolled back; empty for none."""
+    t: float | None
+    """When the vehicle said so [s since 1970]."""
+    missing: str | None
+    """Why something is not known, or what the last request came to."""
+    waypoints: list[Waypoint]
+    depth_m: float | None
+    mission: Mission | None
+    """Of these orders, where the station has them."""
+    upload: MissionOnItsWay | None
+    waiting: int
+    """Requests about missions that are not over."""
+
+
+class NewMission(BaseModel):
+    """Orders as a text, or a plan out of which they are made."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    orders: Annotated[str, Field(min_length=1, max_length=MOST_ORDERS)] | None = None
+    plan: dict[str, Any] | None = None
+    job: Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[0-9a-f]+$")] | None = None
+    """Preview of the plan, whose result is kept to compare."""
+    preview: dict[str, Any] | None = None
+    """What a preview told, in place of `job`."""
+    valid_for_s: Validity = USUAL
+
+    @model_validator(mode="after")
+    def _one_of_them(self) -> "NewMission":
+        if (self.orders is None) == (self.plan is None):
+            raise ValueError("give orders, or a plan, and not both")
+        return self
+
+
+class RollBack(BaseModel):
+    """How long it is tried."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    valid_for_s: Validity = USUAL
+
+
+@router.get("/vehicles/{vehicle}/missions")
+def list_missions(
+    _user: Viewer, line: Line, station: TheStation, limit: Annotated[int, Query(ge=1, le=500)] = 100
+) -> list[Mission]:
+    """Return the last missions of a vehicle, the newest first."""
+    return [Mission.model_validate(station.missions.told(row)) for row in station.missions.list(line.vehicle, limit)]
+
+
+@router.get("/vehicles/{vehicle}/missions/{id}")
+def show_mission(
+    _user: Viewer, line: Line, station: TheStation, id: Annotated[int, Path(ge=1, le=1 << 62)]
+) -> MissionDetail:
+    """Return a mission with its orders, and what became of it."""
+    row, history = station.missions.find(line.vehicle, id)
+    whole = station.missions.told(row) | {"orders": row.orders, "plan": row.plan}
+    return MissionDetail.model_validate(whole | {"history": [each._asdict() for each in history]})
+
+
+@router.get("/vehicles/{vehicle}/mission")
+def show_mission_aboard(_user: Viewer, line: Line, station: TheStation) -> MissionAboard:
+    """Return which mission the vehicle holds, and what is on its way to it."""
+    return MissionAboard.model_validate(station.missions.aboard(line.vehicle))
+
+
+@router.post("/vehicles/{vehicle}/mission", status_code=202)
+def upload_mission(user: Holder, line: Line, station: TheStation, new: NewMission) -> Mission:
+    """Give the vehicle a mission: kept here first, then sent; it takes it whole, or keeps the one that it has."""
+    plan, orders = new.plan, new.orders or ""
+    if plan is not None:
+        made = _resolved(station, line, plan)
+        plan, orders = made.model_dump(mode="json", exclude_none=True), station.previews.orders(made)
+    preview = new.preview if new.job is None else station.previews.job(new.job).get("result")
+    row = station.missions.upload(
+        line.vehicle, user.name, orders, plan=plan, preview=preview, valid_for_s=new.valid_for_s
+    )  # fmt: skip
+    return Mission.model_validate(station.missions.told(row))
+
+
+@router.post("/vehicles/{vehicle}/mission/roll-back", status_code=202)
+def roll_back_mission(user: Holder, line: Line, station: TheStation, asked: RollBack | None = None) -> MissionAboard:
+    """Let the vehicle fly the mission before its present one again."""
+    station.missions.roll_back(line.vehicle, user.name, USUAL if asked is None else asked.valid_for_s)
+    return MissionAboard.model_validate(station.missions.aboard(line.vehicle))
+
+
+def _resolved(station: Station, line: VehicleLine, plan: dict[str, Any]) -> StationPlan:
+    """The plan, with what the station knows of the vehicle filled in."""
+    model = line.settings.model
+    return resolved(
+        plan_from(plan), now=line.clock.now(), vehicles=sorted({*builtin_names(), model}), model=model,
+        current=current_of_last_dive(station.archive, line.vehicle),
+    )  # fmt: skip

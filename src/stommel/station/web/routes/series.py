@@ -1,0 +1,131 @@
+"""Values over time, reduced to what a plot can show; the track; what the vehicle said in words."""
+
+import math
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, Query
+from pydantic import BaseModel
+
+from stommel.station.archive.series import FEWEST_POINTS, MOST_POINTS
+from stommel.station.channels import CHANNELS, channel_named
+from stommel.station.track import Track, read_track
+from stommel.station.web.access import Viewer
+from stommel.station.web.errors import refusal
+from stommel.station.web.found import Line, TheStation
+
+router = APIRouter(prefix="/api", tags=["series"])
+
+HOUR = 3600.0
+FIRST, LAST = 0.0, 4_102_444_800.0
+MOST_CHANNELS = 40
+Time = Annotated[float | None, Query(ge=FIRST, le=LAST, allow_inf_nan=False, description="Seconds since 1970.")]
+Points = Annotated[int, Query(ge=FEWEST_POINTS, le=MOST_POINTS, description="To be shown, at most.")]
+
+
+class Curve(BaseModel):
+    """What to draw of a channel."""
+
+    t: list[float]
+    value: list[float | None]
+    """null between two samples that are further apart than usual: a gap is drawn as a gap."""
+    samples: int
+    """How many there are in the range."""
+    reduced: bool
+    """Whether some were left out."""
+
+
+class SeriesAnswer(BaseModel):
+    """Channels over a range of time [s since 1970]."""
+
+    begin: float
+    end: float
+    channels: dict[str, Curve]
+
+
+class TrackAnswer(BaseModel):
+    """Where a vehicle was [deg], how sure that is [m], and from what it is known: `gps` or `estimate`."""
+
+    t: list[float]
+    latitude: list[float]
+    longitude: list[float]
+    sigma_m: list[float | None]
+    source: list[str]
+
+
+class Sentence(BaseModel):
+    """Something that the vehicle said in words; severity 0 is the worst, 7 the least."""
+
+    t: float
+    severity: int
+    words: str
+
+
+@router.get("/vehicles/{vehicle}/series")
+def show_series(
+    _user: Viewer,
+    line: Line,
+    station: TheStation,
+    channels: Annotated[str, Query(min_length=1, max_length=2000, description="Keys, with commas between them.")],
+    begin: Time = None,
+    end: Time = None,
+    points: Points = 2000,
+    method: Literal["minmax", "lttb", "raw"] = "minmax",
+) -> SeriesAnswer:
+    """Return channels over a range of time; the last hour if no range is given.
+
+    `minmax` keeps the lowest and highest of each stretch, `lttb` the shape, `raw` everything.
+    """
+    begin, end = _range(line.clock.now(), begin, end)
+    curves = {}
+    for key in _keys(channels):
+        found = station.archive.series(line.vehicle, key, begin, end, points, method)
+        value = [None if math.isnan(each) else each for each in found.value.tolist()]
+        curves[key] = Curve(t=found.t.tolist(), value=value, samples=found.samples, reduced=found.reduced)
+    return SeriesAnswer(begin=begin, end=end, channels=curves)
+
+
+@router.get("/vehicles/{vehicle}/track")
+def show_track(
+    _user: Viewer, line: Line, station: TheStation, begin: Time = None, end: Time = None, points: Points = 2000
+) -> TrackAnswer:
+    """Return where a vehicle was; the last day if no range is given."""
+    begin, end = _range(line.clock.now(), begin, end, 24.0 * HOUR)
+    found: Track = read_track(station.archive, line.vehicle, begin, end, points)
+    return TrackAnswer.model_validate(found._asdict())
+
+
+@router.get("/vehicles/{vehicle}/texts")
+def list_texts(
+    _user: Viewer,
+    line: Line,
+    station: TheStation,
+    begin: Time = None,
+    end: Time = None,
+    limit: Annotated[int, Query(ge=1, le=10_000)] = 200,
+) -> list[Sentence]:
+    """Return what the vehicle said in words, the newest last."""
+    begin, end = _range(line.clock.now(), FIRST if begin is None else begin, end)
+    found = station.archive.texts(line.vehicle, begin=begin, end=end, limit=limit)
+    return [Sentence.model_validate(each._asdict()) for each in found]
+
+
+def _range(now: float, begin: float | None, end: float | None, usual: float = HOUR) -> tuple[float, float]:
+    end = min(now, LAST) if end is None else end
+    begin = max(FIRST, end - usual) if begin is None else begin
+    if begin > end:
+        raise refusal(422, "the range ends before it begins", key="end", value=end, allowed=f"at least {begin:g}")
+    return begin, end
+
+
+def _keys(text: str) -> list[str]:
+    keys = list(dict.fromkeys(part.strip() for part in text.split(",") if part.strip()))
+    if not 1 <= len(keys) <= MOST_CHANNELS:
+        raise refusal(
+            422, f"{len(keys)} channels are asked for", key="channels", value=text[:100],
+            allowed=f"1 to {MOST_CHANNELS}",
+        )  # fmt: skip
+    for key in keys:
+        if channel_named(key) is None:
+            known = ", ".join(channel.key for channel in CHANNELS)
+            raise refusal(422, f"there is no channel {key[:80]}", key="channels", value=key[:80], allowed=known)
+    return keys

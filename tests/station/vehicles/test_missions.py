@@ -1,0 +1,120 @@
+"""Missions at the station. Oracle: what the vehicle's side of the link holds, byte for byte."""
+
+import hashlib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from stommel.station.station import Station
+from stommel.station.vehicles.missions import MissionError
+from tests.station.client import Client
+from tests.station.served import Served, served
+from tests.station.speaker import until
+from tests.station.stations import station
+from tests.support.orders import ORDERS
+
+OTHER = ORDERS.replace("There and back", "Another way")
+
+
+def states(found: Station) -> list[tuple[str, str]]:
+    return [(row.name, row.state) for row in found.missions.list(1, 10)]
+
+
+def holds(vehicle: Served, orders: str) -> None:
+    """Let the vehicle hold these orders from the beginning."""
+    vehicle.missions.files = [orders.encode()]
+    vehicle.files.files["missions", "active.orders"] = orders.encode()
+
+
+def upload(client: Client, orders: str) -> Any:
+    return client.post("/vehicles/1/mission", {"orders": orders})
+
+
+def test_the_mission_that_the_vehicle_holds_is_found_and_fetched(tmp_path: Path) -> None:
+    with served() as vehicle:
+        holds(vehicle, ORDERS)
+        with station(tmp_path, vehicle.address) as found:
+            client = Client(found)
+            until(lambda: client.get("/vehicles/1/mission")["mission"])
+            told = client.get("/vehicles/1/mission")
+            assert told["sha256"] == hashlib.sha256(ORDERS.encode()).hexdigest()
+            assert (told["mission"]["user"], told["depth_m"]) == (None, 100.0)
+            assert told["waypoints"][0]["latitude"] == pytest.approx(29.793, abs=1e-2)
+            assert states(found) == [("in memory", "aboard")]
+            assert client.get(f"/vehicles/1/missions/{told['mission']['id']}")["orders"] == ORDERS
+
+
+def test_a_mission_is_kept_with_who_and_hash_and_arrives_whole(tmp_path: Path) -> None:
+    with served() as vehicle:
+        holds(vehicle, ORDERS)
+        with station(tmp_path, vehicle.address) as found:
+            client = Client(found)
+            row = upload(client, OTHER)
+            assert (row["user"], row["state"]) == ("local", "waiting")
+            assert row["sha256"] == hashlib.sha256(OTHER.encode()).hexdigest()
+            until(lambda: ("Another way", "aboard") in states(found))
+            assert vehicle.missions.files[-1] == OTHER.encode()
+            until(lambda: client.get("/vehicles/1/mission")["sha256"] == row["sha256"])
+            steps = [each["state"] for each in client.get(f"/vehicles/1/missions/{row['id']}")["history"]]
+            assert steps == ["waiting", "sending", "aboard"]
+
+
+def test_roll_back_brings_the_mission_before_back(tmp_path: Path) -> None:
+    with served() as vehicle:
+        holds(vehicle, ORDERS)
+        with station(tmp_path, vehicle.address) as found:
+            client = Client(found)
+            until(lambda: ("in memory", "aboard") in states(found))
+            with pytest.raises(MissionError, match="before the present"):
+                found.missions.roll_back(1, "ada", 600.0)
+            upload(client, OTHER)
+            until(lambda: client.get("/vehicles/1/mission")["previous_sha256"])
+            client.post("/vehicles/1/mission/roll-back")
+            until(lambda: vehicle.missions.files[-1] == ORDERS.encode())
+            until(lambda: states(found) == [("Another way", "replaced"), ("in memory", "aboard")])
+
+
+def test_what_the_vehicle_refuses_is_told_in_its_words_and_changes_nothing(tmp_path: Path) -> None:
+    with served() as vehicle, station(tmp_path, vehicle.address) as found:
+
+        def refuse() -> None:
+            from stommel.errors import FileError, Problem
+
+            raise FileError([Problem("mission", "dives.depth_m", "dives.depth_m = 100: must be at most 60 m")])
+
+        vehicle.missions.check = refuse  # type: ignore[method-assign]
+        client = Client(found)
+        row = upload(client, OTHER)
+        until(lambda: ("Another way", "refused") in states(found))
+        history = client.get(f"/vehicles/1/missions/{row['id']}")["history"]
+        assert "must be at most 60 m" in history[-1]["words"]
+        assert vehicle.missions.files == [b"the first orders"]
+
+
+def test_what_is_no_mission_is_refused_before_it_goes_to_sea(tmp_path: Path) -> None:
+    with served() as vehicle, station(tmp_path, vehicle.address, start=False) as found:
+        client = Client(found)
+        for body in (
+            {"orders": "nonsense"},
+            {"orders": ORDERS, "plan": {}},
+            {},
+            {"orders": ORDERS.replace("100.0", "nan")},
+        ):
+            assert client.refused("POST", "/vehicles/1/mission", 422, json=body)["reason"]
+        client.refused("GET", "/vehicles/1/missions/77", 404)
+        assert states(found) == []
+
+
+def test_a_mission_on_its_way_when_the_station_stops_is_told_as_interrupted(tmp_path: Path) -> None:
+    with served() as vehicle:
+        holds(vehicle, ORDERS)
+        vehicle.under_water = True
+        with station(tmp_path, vehicle.address) as found:
+            upload(Client(found), OTHER)
+            until(lambda: states(found)[0][1] == "sending")
+        with station(tmp_path, vehicle.address) as again:
+            until(lambda: states(again) == [("Another way", "interrupted")])
+            vehicle.under_water = False
+            until(lambda: ("in memory", "aboard") in states(again))
+            assert vehicle.missions.files == [ORDERS.encode()]

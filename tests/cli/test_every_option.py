@@ -370,8 +370,8 @@ ELSEWHERE = {
     "sitl campaign": "tests/sitl/test_campaign_command: --output, --runs, --seed, --workers, --scheduler, --restart",
     "sitl replay": "tests/sitl/test_campaign_command: --seed",
     "study": "tests/studies: --output, --workers, --scheduler, --restart, --plots",
-    "station serve": "tests/cli/test_station_serve: --database, --folder, --link, --vehicle, --key, --unsigned, --model, "
-    "--speed, --settings, --name, --host, --port, --certificate, --key-file, --behind-proxy, --login",
+    "station serve": "tests/cli/test_station_serve: --database, --folder, --link, --vehicle, --key, --unsigned, "
+    "--model, --speed, --settings, --name, --host, --port, --certificate, --key-file, --behind-proxy, --login",
     **{
         f"station {verb}": f"tests/cli/test_station_people: --database, --settings, --folder{own}"
         for verb, own in {

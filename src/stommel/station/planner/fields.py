@@ -1,7 +1,8 @@
 """What a form needs of each value of a plan: words, unit, range, what it is if left out."""
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple, get_args
+from dataclasses import dataclass, replace
+from typing import Any, get_args
 
 from annotated_types import Ge, Le
 from pydantic import BaseModel
@@ -18,7 +19,8 @@ LISTS = ("waypoints", "geofence")
 """Keys of places, which are drawn on a map."""
 
 
-class PlanField(NamedTuple):
+@dataclass(frozen=True)
+class PlanField:
     """One value of a plan."""
 
     key: str
@@ -41,7 +43,7 @@ def plan_fields(limits: VehicleLimits | None = None) -> list[PlanField]:
     """Every value of a plan but the places, in the order of the file; narrowed to what a vehicle can do."""
     highest = {} if limits is None else _highest(limits)
     return [
-        field._replace(high=min(highest[field.key], field.high)) if field.key in highest and field.high else field
+        replace(field, high=min(highest[field.key], field.high)) if field.key in highest and field.high else field
         for field in _fields(StationPlan, "")
         if not field.key.startswith(LISTS)
     ]

@@ -48,6 +48,7 @@ page/node_modules/.package-lock.json: page/package-lock.json | $(VENV)/page.stam
 
 $(PAGE): page/node_modules/.package-lock.json $(PAGE_SOURCES)
 	$(BIN)/python page/npm.py run --silent build -- --logLevel warn
+	$(BIN)/python page/weight.py
 	@touch $@
 
 page: $(PAGE)

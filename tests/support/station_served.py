@@ -4,6 +4,7 @@ import asyncio
 import threading
 from collections.abc import AsyncIterator, Iterator, Sequence
 from contextlib import contextmanager
+from http.client import HTTPConnection
 from typing import Any
 
 import httpx
@@ -72,6 +73,21 @@ def served(app: FastAPI, **options: Any) -> Iterator[str]:
     finally:
         server.should_exit = True
         thread.join(10.0)
+
+
+def handshake(address: str, **headers: str) -> int:
+    """Status that answers a browser's wish for a socket."""
+    place = httpx.URL(address)
+    asked = {
+        "Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
+        "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",
+    } | headers  # fmt: skip
+    connection = HTTPConnection(place.host, place.port, timeout=10.0)
+    try:
+        connection.request("GET", "/api/live", headers=asked)
+        return connection.getresponse().status
+    finally:
+        connection.close()
 
 
 def logged_in(address: str, name: str, password: str = PASSWORD) -> httpx.Client:

@@ -103,7 +103,7 @@ class Live {
     return () => set.delete(handler);
   }
 
-  /** Calls back whenever the socket opens, also after a loss: lists that grow by events are to be asked for again. */
+  /** Calls back whenever the station greets, also after a loss: the clock is known then, and lists that grow by events are to be asked for again. */
   onOpen(handler: () => void): () => void {
     this.whenOpen.add(handler);
     return () => this.whenOpen.delete(handler);
@@ -136,7 +136,6 @@ class Live {
       if (subscription.began) subscription.listener.gap?.(undefined);
       this.ask(subscription);
     }
-    this.whenOpen.forEach((handler) => handler());
   }
 
   private closed(socket: WebSocket): void {
@@ -196,6 +195,7 @@ class Live {
       summaries[summary.vehicle] = summary;
     }
     this.summaries = summaries;
+    this.whenOpen.forEach((handler) => handler());
   }
 
   private tell(message: Message): void {

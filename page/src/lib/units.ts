@@ -14,6 +14,8 @@ export function digitsFor(value: number, unit = ''): number {
   const size = Math.abs(value);
   if (unit === '' || unit === '1') return Number.isInteger(value) ? 0 : 2;
   if (unit === 'degE' || unit === 'degN') return 5;
+  if (unit === 'deg') return 1;
+  if (unit === 'm/s') return 2;
   if (size >= 1000) return 0;
   if (size >= 100) return unit === 'ml' ? 0 : 1;
   if (size >= 10) return 1;

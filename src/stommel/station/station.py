@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from dataclasses import asdict
 from typing import Any
 
 from stommel.files.folder_lock import FolderInUseError, locked
@@ -13,10 +14,12 @@ from stommel.station.live.hub import Hub
 from stommel.station.people.holders import Hold
 from stommel.station.people.people import People
 from stommel.station.preview.previews import Previews
+from stommel.station.replay.replays import Replays
 from stommel.station.settings import StationSettings, VehicleSettings
 from stommel.station.sole import hold_archive
 from stommel.station.vehicles.attached import VehicleNews
 from stommel.station.vehicles.commands import Commands
+from stommel.station.vehicles.files import Files
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.missions import Missions
 from stommel.station.vehicles.opening import VehicleError
@@ -63,10 +66,13 @@ class Station:
             self.previews = Previews()
             self._held.callback(self.previews.close)
             self.people = People(self.archive, told=self._holder_changed)
+            self.replays = Replays(self.archive, self.hub)
+            self._held.callback(self.replays.stop)
             self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
             self.commands = Commands(self.archive, self.hub, self.vehicles)
             self.parameters = Parameters(self.archive, self.hub, self.vehicles)
             self.missions = Missions(self.archive, self.hub, self.vehicles)
+            self.files = Files(self.archive, self.hub, self.vehicles, settings.folder)
             for vehicle in settings.vehicles:
                 self._attach(vehicle)
         except BaseException:
@@ -122,6 +128,7 @@ class Station:
         self.commands.follow(line)
         self.parameters.follow(line)
         self.missions.follow(line)
+        self.files.follow(line)
         self.vehicles[number], self.news[number] = line, news
         self._holders[number] = self.people.holders.of(number)
         watch(self.alarms, line, lambda: self.summary(number))
@@ -143,7 +150,7 @@ class Station:
 
     def _holder_changed(self, vehicle: int, hold: Hold | None) -> None:
         self._holders[vehicle] = hold
-        told = {"vehicle": vehicle, "user": None} if hold is None else hold._asdict()
+        told = {"vehicle": vehicle, "user": None} if hold is None else asdict(hold)
         self.hub.publish(Happening("holder", vehicle, told))
 
     def _title(self, vehicle: int) -> str:

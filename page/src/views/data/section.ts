@@ -4,7 +4,7 @@ import type { SectionAnswer } from './answers';
 import type { Pen } from './sheet';
 
 /** A column reaches half-way to its neighbours, but never farther than this many usual distances: a gap stays a gap. */
-const REACH = 0.75;
+const REACH = 1.5;
 
 export interface Column {
   readonly begin: number;
@@ -29,6 +29,20 @@ export function colourRange(values: readonly (readonly (number | null)[])[]): [n
   const low = present[Math.floor(0.01 * (present.length - 1))] ?? 0;
   const high = present[Math.ceil(0.99 * (present.length - 1))] ?? 0;
   return high > low ? [low, high] : [low - 0.5, low + 0.5];
+}
+
+/** Whether most cells between the first and the last of each column have a value. */
+export function isDense(values: readonly (readonly (number | null)[])[]): boolean {
+  let cells = 0;
+  let full = 0;
+  for (const column of values) {
+    const first = column.findIndex((value) => value !== null);
+    const last = column.findLastIndex((value) => value !== null);
+    if (first < 0) continue;
+    cells += last - first + 1;
+    full += column.filter((value) => value !== null).length;
+  }
+  return full >= 0.9 * cells;
 }
 
 export function drawSection(

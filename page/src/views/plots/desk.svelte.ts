@@ -27,6 +27,7 @@ export class Desk {
   #pending: ReadonlyMap<string, Samples>[] = [];
   #pendingCount = 0;
   #isWhole = false;
+  #isFirst = false;
   #asked = 0;
   #timer: ReturnType<typeof setInterval>;
   #back = $state.raw<readonly TimeWindow[]>([]);
@@ -158,15 +159,22 @@ export class Desk {
     if (this.window.kind !== 'live' || this.#channels.length === 0) return;
     const listener: LiveListener = {
       onSamples: (samples) => this.#hear(samples),
-      onGap: () => this.#ask(),
+      onGap: () => {
+        this.#isFirst = true;
+        this.#ask();
+      },
       onRefusal: (reason) => { this.failure = reason; },
     };
+    this.#isFirst = true;
     this.#unfollow = this.source.follow(this.#channels, listener);
   }
 
   #hear(samples: ReadonlyMap<string, Samples>): void {
     for (const part of samples.values()) this.#pendingCount += part.t.length;
     this.#pending.push(samples);
+    // What came between the question and the first of these is in the archive by now.
+    if (this.#isFirst) this.#ask();
+    this.#isFirst = false;
     if (this.#pendingCount <= PENDING_LIMIT) return;
     this.#drop();
     this.#ask();

@@ -61,7 +61,7 @@ export function edges(nodes: Node[], transitions: readonly [string, string, stri
   return [...whens.values()].map(({ from, to, when }) => {
     const back = whens.has(`${to.name}>${from.name}`);
     const far = Math.hypot(to.x - from.x, to.y - from.y);
-    const bend = back ? 14 : far > 200 && to.y === from.y ? 66 : 0;
+    const bend = back ? 14 : far > 200 && to.y === from.y && from.y === PLACES['mission']?.[1] ? 66 : 0;
     const [mx, my] = [(from.x + to.x) / 2, (from.y + to.y) / 2];
     const [cx, cy] = [mx - ((to.y - from.y) / far) * bend, my + ((to.x - from.x) / far) * bend];
     const [sx, sy] = border(from, cx, cy);

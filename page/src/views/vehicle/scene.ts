@@ -63,8 +63,8 @@ export class GliderScene {
   private readonly length: number;
   private readonly goal = new Quaternion();
   private heading = 0;
-  private azimuth = 68;
-  private elevation = 14;
+  private azimuth = 76;
+  private elevation = 30;
   private frame = 0;
   private still: boolean;
 
@@ -117,7 +117,7 @@ export class GliderScene {
   }
 
   private look(): void {
-    const away = 5.1 * Math.max(1, 1.25 / this.camera.aspect);
+    const away = 4.9 * Math.max(1, 1.3 / this.camera.aspect);
     const [a, e] = [this.azimuth * RADIANS, this.elevation * RADIANS];
     this.camera.position.set(Math.sin(a) * Math.cos(e) * away, Math.sin(e) * away, Math.cos(a) * Math.cos(e) * away);
     this.camera.lookAt(0, 0, 0);

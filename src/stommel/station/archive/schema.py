@@ -111,7 +111,7 @@ def _cells(name: str, number: str) -> Table:
 
 
 minutes = _cells("minutes", "minute")
-hours = _cells("hours", "hour")
+ten_minutes = _cells("ten_minutes", "ten")
 
 texts = Table(
     "texts",
@@ -232,7 +232,10 @@ files = Table(
     Column("size", BigInteger),
     Column("sha256", String(64)),
     Column("t_us", BigInteger, nullable=False),
+    Column("direction", String(8), nullable=False),  # download or upload
+    Column("user", String),
     Column("state", String, nullable=False),
+    Column("reason", Text),
     Column("stored_as", String),  # below the station's folder
     Index("ix_files_vehicle_id_t_us", "vehicle_id", "t_us"),
 )

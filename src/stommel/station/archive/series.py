@@ -107,8 +107,11 @@ def read_series(reader: ChannelReader, window: Window) -> Series:
 
 
 def _level(reader: ChannelReader, window: Window) -> tuple[int, int]:
-    """How many levels of cells to use, and the width of buckets, of which each holds whole cells."""
-    level = sum(level.width_us <= window.width_us for level in LEVELS)
+    """How many levels of cells to use, and the width of buckets, of which each holds whole cells.
+
+    A bucket of less than one and a half cells would have to grow too much to hold whole ones.
+    """
+    level = sum(2 * window.width_us >= 3 * level.width_us for level in LEVELS)
     if level == 0 and _is_fine(reader, window):
         return 0, window.width_us
     level = max(level, 1)
@@ -117,7 +120,7 @@ def _level(reader: ChannelReader, window: Window) -> tuple[int, int]:
 
 
 def _is_fine(reader: ChannelReader, window: Window) -> bool:
-    """Whether the samples themselves are read for a window in which a bucket is shorter than a minute."""
+    """Whether the samples themselves are read for a window whose buckets are short."""
     minutes, samples = reader.size(window.begin_us, window.end_us, LEVELS[0])
     return samples <= (MOST_RAW if minutes < _FEWEST_MINUTES else _READ_AT_ONCE)
 

@@ -7,7 +7,6 @@ from stommel.station.archive.errors import ArchiveRequestError
 GREATEST_TIME = 4102444800.0
 """The year 2100 [s since 1970]."""
 MINUTE_US = 60_000_000
-HOUR_US = 60 * MINUTE_US
 
 
 def microseconds(t: float) -> int:

@@ -39,6 +39,14 @@ class Hub:
             self._clocks[vehicle] = now
             self._latest.setdefault(vehicle, {}).update(latest or {})
 
+    def restart(self, vehicle: Vehicle, latest: Mapping[str, tuple[float, float]]) -> None:
+        """Put other values in place of all that are known of a vehicle, as a replay does that jumps."""
+        with self._lock:
+            self._latest[vehicle] = dict(latest)
+            readers = self._readers.get(vehicle, ())
+        for reader in readers:
+            reader.restart()
+
     def forget(self, vehicle: Vehicle) -> None:
         """Drop a vehicle, such as a replay that has ended, and end whoever waits for its values."""
         with self._lock:
@@ -90,6 +98,14 @@ class Hub:
     def knows(self, vehicle: Vehicle) -> bool:
         """Whether there is such a vehicle."""
         return vehicle in self._clocks
+
+    def listeners(self, vehicle: Vehicle) -> int:
+        """How many wait for values of a vehicle."""
+        return sum(not reader.is_closed for reader in self._readers.get(vehicle, ()))
+
+    def waiting(self, vehicle: Vehicle) -> int:
+        """Samples that wait for the slowest reader of a vehicle; who brings the past goes no faster than it takes."""
+        return max((reader.waiting for reader in self._readers.get(vehicle, ()) if not reader.is_closed), default=0)
 
     def subscribe(
         self, identity: str, vehicle: Vehicle, channels: Sequence[str], every: bool = False

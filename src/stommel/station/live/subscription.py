@@ -32,6 +32,15 @@ class LatestValues(Mailbox):
         """Take note that there is something new."""
         self.ring()
 
+    def restart(self) -> None:
+        """Take note that all values are others."""
+        self.ring()
+
+    @property
+    def waiting(self) -> int:
+        """Samples that wait: none, as the latest is enough."""
+        return 0
+
     def collect(self) -> Message | None:
         """What has changed since the last time; at first what there is, even if that is nothing."""
         now, latest = self._look()
@@ -70,6 +79,17 @@ class EverySample(Mailbox):
                 first = min(t for _, t, _ in dropped.samples)
                 self._gap = first if self._gap is None else min(first, self._gap)
         self.ring()
+
+    def restart(self) -> None:
+        """Drop what waits: it is of another time."""
+        with self._lock:
+            self._waiting.clear()
+            self._count, self._gap = 0, None
+
+    @property
+    def waiting(self) -> int:
+        """Samples that wait."""
+        return self._count
 
     def collect(self) -> Message | None:
         """All that waits, or that some was lost."""

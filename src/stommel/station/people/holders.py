@@ -1,8 +1,8 @@
 """Who holds command of a vehicle: one pilot at a time, and everybody sees who."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import NamedTuple
 
 from sqlalchemy import Connection, select
 
@@ -15,7 +15,8 @@ from stommel.station.people.users import Database
 LONGEST_REASON = 500
 
 
-class Hold(NamedTuple):
+@dataclass(frozen=True)
+class Hold:
     """Who commands a vehicle, since when; `taken_from` and `reason` where it was taken by force."""
 
     vehicle: int

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from contextlib import suppress
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from sqlalchemy import Row, func, select
 
@@ -23,7 +23,8 @@ MOST = 100
 _USED_EVERY_S = 60.0
 
 
-class Token(NamedTuple):
+@dataclass(frozen=True)
+class Token:
     """A token without its secret; times in seconds since 1970, None where it never ends or was never used."""
 
     token: int

@@ -2,7 +2,8 @@
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from typing import NamedTuple, Protocol
+from dataclasses import dataclass
+from typing import Protocol
 
 from sqlalchemy import Connection, func, select
 
@@ -24,7 +25,8 @@ class Database(Protocol):
         """Connection of one transaction, committed at its end."""
 
 
-class Person(NamedTuple):
+@dataclass(frozen=True)
+class Person:
     """Somebody with a name at this station; `added` in seconds since 1970."""
 
     name: str

@@ -1,0 +1,148 @@
+"""One replay: what a vehicle told in the past, told again as if it were now, at a speed that listeners can follow."""
+
+import time
+from collections.abc import Callable
+from threading import Event, Lock, Thread
+from typing import Any
+
+from stommel.station.archive import Archive, ArchiveError
+from stommel.station.live.events import Happening, Samples
+from stommel.station.live.hub import Hub
+from stommel.station.replay.course import Course
+from stommel.station.replay.reading import channel_keys, samples_between, texts_between, values_at
+
+TICK = 0.1
+"""Between two looks [s]."""
+MOST_WAITING = 20_000
+"""Samples that may wait for the slowest listener; while there are more, the replay stands still."""
+TELL_EVERY = 1.0
+"""How far it has come is told as often [s]."""
+ALONE = 60.0
+"""For so long nobody may listen [s]."""
+
+
+class Replay:
+    """Tells the past of a vehicle to whoever listens to `replay:ID`, in a thread of its own.
+
+    It reads as much as is due and no more than listeners take: a slow listener, or a slow disk, makes it slower, and
+    nothing is lost; before anybody listens it does not begin. It touches nothing of the vehicle as it is now.
+
+    Parameters
+    ----------
+    identity
+        Name of the replay.
+    user
+        Who began it.
+    vehicle
+        Whose past it is.
+    course
+        What is told, and how fast.
+    archive
+        Where the past is.
+    hub
+        Hands it on.
+    ended
+        Called in the replay's thread when it is over.
+    alone
+        For so long nobody may listen [s].
+    """
+
+    def __init__(
+        self, identity: str, user: str, vehicle: int, course: Course, archive: Archive, hub: Hub,
+        ended: Callable[["Replay"], None], alone: float = ALONE,
+    ) -> None:  # fmt: skip
+        self.identity, self.user, self.vehicle = identity, user, vehicle
+        self.name = f"replay:{identity}"
+        self._course, self._archive, self._hub, self._ended, self._alone = course, archive, hub, ended, alone
+        self._reason = ""
+        self._lock = Lock()
+        self._ends, self._woken = Event(), Event()
+        with archive.reading() as connection:
+            self._channels = channel_keys(connection, vehicle)
+            known = values_at(connection, vehicle, self._channels, course.at)
+        hub.open(self.name, lambda: self._course.at, known)
+        self._thread = Thread(target=self._run, name=self.name, daemon=True)
+
+    def start(self) -> None:
+        """Begin to tell."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End."""
+        self._ends.set()
+        self._woken.set()
+        if self._thread.ident is not None:
+            self._thread.join(5.0)
+
+    def change(self, speed: float | None = None, paused: bool | None = None, at: float | None = None) -> None:
+        """Go on at another speed, stand still or go on, or from another time.
+
+        Raises
+        ------
+        ArchiveError
+            What was known at that time cannot be read; the replay goes on as before.
+        """
+        with self._lock:
+            if at is not None:
+                self._jump(at)
+            self._course.speed = self._course.speed if speed is None else speed
+            self._course.paused = self._course.paused if paused is None else paused
+        self._woken.set()
+
+    def state(self) -> dict[str, Any]:
+        """How far it has come."""
+        course = self._course
+        return {
+            "replay": self.identity, "vehicle": self.vehicle, "user": self.user, "begin": course.begin,
+            "end": course.end, "at": course.at, "speed": course.speed, "paused": course.paused or course.is_at_end,
+            "ended": self._ends.is_set(), "reason": self._reason,
+        }  # fmt: skip
+
+    def _jump(self, at: float) -> None:
+        with self._archive.reading() as connection:
+            known = values_at(connection, self.vehicle, self._channels, at)
+        self._course.jump(at)
+        self._hub.restart(self.name, known)
+
+    def _run(self) -> None:
+        last = heard = told = time.monotonic()
+        while not self._ends.is_set():
+            changed = self._woken.wait(TICK)
+            self._woken.clear()
+            now = time.monotonic()
+            is_heard = self._hub.listeners(self.name) > 0
+            is_moved = is_heard and self._tell(now - last)
+            last = now
+            if changed or (is_moved and now - told >= TELL_EVERY):
+                told = now
+                self._publish_state()
+            heard = now if is_heard else heard
+            if now - heard > self._alone:
+                self._ends.set()
+        self._hub.forget(self.name)
+        self._publish_state()
+        self._ended(self)
+
+    def _tell(self, elapsed: float) -> bool:
+        """Tell what is due after a real time [s], if listeners have taken what came before; whether time went on."""
+        with self._lock:
+            course, begin = self._course, self._course.at
+            due = course.due(elapsed)
+            if due <= begin or self._hub.waiting(self.name) > MOST_WAITING:
+                return False
+            try:
+                with self._archive.reading() as connection:
+                    found, until = samples_between(connection, self.vehicle, self._channels, begin, due)
+                    said = texts_between(connection, self.vehicle, begin, until)
+            except ArchiveError as error:
+                self._reason = str(error)
+                return False
+            self._reason, course.at = "", until
+            if found:
+                self._hub.publish(Samples(self.name, until, found))
+            for t, severity, words in said:
+                self._hub.publish(Happening("text", self.name, {"t": t, "severity": severity, "words": words}))
+            return True
+
+    def _publish_state(self) -> None:
+        self._hub.publish(Happening("replay", self.vehicle, self.state()))

@@ -1,0 +1,253 @@
+"""Transfers of files of one vehicle, over as many surfacings as they take, and over restarts of the station."""
+
+import shutil
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from pathlib import Path
+
+from stommel.files.whole import sync_names
+from stommel.link.files.download import Download
+from stommel.link.files.folder_disk import FolderDisk
+from stommel.link.files.listing import Listing
+from stommel.link.files.port import Entry
+from stommel.link.files.progress import Progress, State
+from stommel.link.files.upload import Upload
+from stommel.link.shore.shore_end import ShoreEnd
+from stommel.station.vehicles.file_rows import (
+    CANCELLED,
+    FAILED,
+    GOING,
+    PAUSED,
+    REFUSED,
+    UPLOAD,
+    WHOLE,
+    FileRow,
+    FileRows,
+)
+from stommel.station.vehicles.line import VehicleLine
+from stommel.station.vehicles.opening import MissingError, VehicleError
+
+EVERY, TOLD_EVERY = 0.2, 1.0
+"""Between two looks, and between two words about the same transfer [s]."""
+MOST_OPEN = 50
+LOCAL = "file"
+SILENT = "the vehicle is not heard; it goes on by itself"
+
+
+@dataclass
+class Transfer:
+    """A transfer that is not over."""
+
+    row: FileRow
+    service: Download | Upload
+    disk: FolderDisk | None
+    """Of a download."""
+    told_at: float = 0.0
+    """When it was told last, by the station's clock [s]."""
+
+    @property
+    def progress(self) -> Progress:
+        """How far it is."""
+        return self.service.progress
+
+
+class FileFollower:
+    """Everything of it happens in the line's thread, but for reading `transfers`.
+
+    Parameters
+    ----------
+    rows
+        Of the archive.
+    folder
+        Of the station.
+    vehicle
+        Its folder below that, by name.
+    tell
+        Is called when a transfer has changed.
+    """
+
+    def __init__(self, rows: FileRows, folder: Path, vehicle: str, tell: Callable[[FileRow], None]) -> None:
+        self._rows, self._folder, self._vehicle, self._tell = rows, folder, vehicle, tell
+        self._due = 0.0
+        self._is_new = True
+        self.transfers: dict[int, Transfer] = {}
+        """By number."""
+        self._listings: list[tuple[Listing, Future[Sequence[Entry]]]] = []
+
+    # what is asked for
+
+    def begin(self, end: ShoreEnd, row: FileRow, content: bytes | None = None) -> None:
+        """Begin a transfer whose row is written, or go on with one.
+
+        Raises
+        ------
+        VehicleError
+            Too many are open.
+        """
+        if len(self.transfers) >= MOST_OPEN:
+            raise VehicleError(f"vehicle {row.vehicle}: {MOST_OPEN} transfers are open; wait, or cancel some")
+        place = self._place(row.id)
+        if row.direction == UPLOAD:
+            if content is None:
+                content = (place / LOCAL).read_bytes()
+            transfer = Transfer(row, end.upload(content, row.path), None)
+        else:
+            disk = FolderDisk(place)
+            transfer = Transfer(row, end.download(row.path, disk, LOCAL), disk)
+        if row.state == PAUSED:
+            transfer.service.pause()
+        self.transfers[row.id] = transfer
+
+    def keep_content(self, id: int, content: bytes) -> None:
+        """Keep what is to be sent, so that it goes on after a restart; in any thread.
+
+        Raises
+        ------
+        OSError
+            The disk does not take it.
+        """
+        place = self._place(id)
+        place.mkdir(parents=True, exist_ok=True)
+        (place / LOCAL).write_bytes(content)
+        sync_names(place)
+
+    def pause(self, id: int) -> None:
+        """Let a transfer rest until somebody resumes it."""
+        transfer = self._found(id)
+        transfer.row = transfer.row._replace(state=PAUSED)
+        self._rows.change(transfer.row)
+        transfer.service.pause()
+        self._tell(transfer.row)
+
+    def resume(self, id: int, t: float) -> None:
+        """Let a transfer go on."""
+        transfer = self._found(id)
+        transfer.row = transfer.row._replace(state=GOING)
+        self._rows.change(transfer.row)
+        transfer.service.resume(t)
+        self._tell(transfer.row)
+
+    def cancel(self, end: ShoreEnd, id: int) -> None:
+        """End a transfer; what has come of it is dropped."""
+        transfer = self._found(id)
+        self._over(end, transfer, transfer.row._replace(state=CANCELLED, reason="cancelled by a person"))
+
+    def list(self, end: ShoreEnd, folder: str) -> "Future[Sequence[Entry]]":
+        """Begin to list a folder aboard."""
+        found: Future[Sequence[Entry]] = Future()
+        self._listings.append((end.listing(folder), found))
+        return found
+
+    def _found(self, id: int) -> Transfer:
+        if id not in self.transfers:
+            raise MissingError(f"transfer {id}: is over, or there is none")
+        return self.transfers[id]
+
+    # how it goes on
+
+    def look(self, line: VehicleLine, t: float) -> None:
+        """Go on."""
+        real = time.monotonic()
+        if real < self._due:
+            return
+        self._due = real + EVERY
+        if self._is_new:
+            self._go_on(line)
+            self._is_new = False
+        for transfer in list(self.transfers.values()):
+            if transfer.service.state.is_over:
+                self._end(line, transfer)
+            else:
+                if transfer.row.state == PAUSED and not transfer.service.is_paused:
+                    transfer.service.pause()  # the end resumes all when the vehicle is heard again
+                if real - transfer.told_at >= TOLD_EVERY:
+                    transfer.told_at = real
+                    self._tell(transfer.row)
+        self._look_at_listings(line, t)
+
+    def _go_on(self, line: VehicleLine) -> None:
+        """Take up what was not over when the station stopped."""
+        for row in reversed(self._rows.open_ones(line.vehicle)):
+            try:
+                self.begin(line.end, row)
+            except (OSError, VehicleError) as error:
+                self._rows.change(row._replace(state=FAILED, reason=f"cannot go on: {error}"[:300]))
+
+    def _end(self, line: VehicleLine, transfer: Transfer) -> None:
+        service, row, now = transfer.service, transfer.row, line.clock.now()
+        state = {State.WHOLE: WHOLE, State.REFUSED: REFUSED}.get(service.state, FAILED)
+        row = row._replace(state=state, reason=service.reason, t=now)
+        if isinstance(service, Download) and state == WHOLE:
+            assert service.file is not None
+            identity = service.file.identity
+            row = row._replace(size=identity.size, sha256=identity.sha256)
+            try:
+                row = row._replace(stored_as=self._store(row, service.file.kept_as or LOCAL))
+            except OSError as error:
+                row = row._replace(state=FAILED, reason=f"cannot be stored: {error.strerror or error}")
+        self._over(line.end, transfer, row)
+
+    def _store(self, row: FileRow, name: str) -> str:
+        """Bring a whole file to its place by its hash, and return the place below the station's folder."""
+        assert row.sha256 is not None
+        place = Path(self._vehicle) / "files" / row.sha256[:2] / row.sha256
+        target = self._folder / place
+        target.parent.mkdir(parents=True, exist_ok=True)
+        (self._place(row.id) / name).replace(target)
+        sync_names(target.parent)
+        return place.as_posix()
+
+    def _over(self, end: ShoreEnd, transfer: Transfer, row: FileRow) -> None:
+        self._rows.change(row)
+        end.drop(transfer.service)
+        if transfer.disk is not None:
+            transfer.disk.close()
+        del self.transfers[row.id]
+        shutil.rmtree(self._place(row.id), ignore_errors=True)
+        self._tell(row)
+
+    def _look_at_listings(self, line: VehicleLine, t: float) -> None:
+        for listing, found in list(self._listings):
+            if found.cancelled() or not line.end.is_heard(t):
+                reason = line.status().reason or "it went out of reach"
+                _fail(found, f"vehicle {line.vehicle} is not heard: {reason}")
+            elif not listing.state.is_over:
+                continue
+            elif listing.state is State.WHOLE:
+                if found.set_running_or_notify_cancel():
+                    found.set_result(listing.entries)
+            else:
+                _fail(found, listing.reason or f"{listing.folder or '/'}: cannot be listed")
+            line.end.drop(listing)
+            self._listings.remove((listing, found))
+
+    def _place(self, id: int) -> Path:
+        return self._folder / self._vehicle / "transfers" / str(id)
+
+
+def told(row: FileRow, transfer: Transfer | None) -> dict[str, object]:
+    """A transfer as the API tells it."""
+    found: dict[str, object] = {
+        "id": row.id, "vehicle": row.vehicle, "path": row.path, "direction": row.direction, "user": row.user,
+        "t": row.t, "state": row.state, "is_over": row.is_over, "is_paused": row.state == PAUSED,
+        "reason": row.reason, "size": row.size, "sha256": row.sha256, "rate": None, "seconds_left": None,
+        "loss_share": None, "done": row.size or 0 if row.state == WHOLE else 0,
+    }  # fmt: skip
+    if transfer is not None:
+        now = transfer.progress
+        found |= {
+            "done": now.done, "size": now.size if now.size is not None else row.size, "rate": now.rate,
+            "seconds_left": now.seconds_left, "loss_share": now.loss,
+        }  # fmt: skip
+        if now.is_paused and row.state != PAUSED:
+            found["reason"] = SILENT
+        elif row.state != PAUSED:
+            found["reason"] = now.state.value
+    return found
+
+
+def _fail(found: "Future[Sequence[Entry]]", words: str) -> None:
+    if found.set_running_or_notify_cancel():
+        found.set_exception(VehicleError(words))

@@ -1,6 +1,8 @@
 """The page in Chromium: a station to look at, a browser, pictures under build/screenshots."""
 
+import json
 import os
+import socket
 import subprocess
 import sys
 import time
@@ -40,8 +42,6 @@ def answers(address: str, process: "subprocess.Popen[bytes]", seconds: float = 6
 
 def free_port() -> int:
     """A port of this machine that nothing listens on."""
-    import socket
-
     with socket.socket() as one:
         one.bind(("127.0.0.1", 0))
         return int(one.getsockname()[1])
@@ -49,7 +49,7 @@ def free_port() -> int:
 
 def serve(command: list[str], address: str) -> "Iterator[subprocess.Popen[bytes]]":
     """A server while it is needed; it is ended as Ctrl-C would, and killed if that does not help."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT / "src"), str(ROOT)])}
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path(stommel.__file__).parents[1]), str(ROOT)])}
     process = subprocess.Popen(command, cwd=ROOT, env=environment)
     try:
         answers(address, process)
@@ -76,6 +76,33 @@ def fake_station(built: None) -> Iterator[str]:
     address = f"http://127.0.0.1:{(port := free_port())}"
     for _ in serve([sys.executable, "-m", "tests.page.fake_station", str(port)], address):
         yield address
+
+
+def station_command(folder: Path, port: int, *arguments: str) -> list[str]:
+    """Command line of the real station."""
+    code = "from stommel.cli import main; main()"
+    return [sys.executable, "-c", code, "station", "--folder", str(folder), "--port", str(port), *arguments]
+
+
+@pytest.fixture(scope="session")
+def station(built: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Address of the real station with a simulated glider beside it, as `make run` starts it."""
+    address = f"http://127.0.0.1:{(port := free_port())}"
+    folder = tmp_path_factory.mktemp("station") / "flight"
+    for _ in serve(station_command(folder, port, "--sitl", "east_china_sea", "--speed", "20"), address):
+        heard(address)
+        yield address
+
+
+def heard(address: str, seconds: float = 240.0) -> None:
+    """Wait until the first vehicle has told its state: a cold simulator compiles for a minute."""
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        with urllib.request.urlopen(f"{address}/api/vehicles/1", timeout=10.0) as answer:
+            if json.load(answer)["state"] is not None:
+                return
+        time.sleep(0.5)
+    pytest.fail(f"the simulated glider told nothing within {seconds} s")
 
 
 @pytest.fixture(scope="session")

@@ -1,0 +1,123 @@
+"""The page's live socket against a station that the test plays message by message."""
+
+import json
+import re
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from tests.page import fake_glider as glider
+
+NOW = glider.EPOCH + 5000.0
+
+
+class PlayedStation:
+    """Takes the page's sockets one after another; says what the test says, and remembers what was asked."""
+
+    def __init__(self, page: Any) -> None:
+        self.sockets: list[Any] = []
+        self.asked: list[list[dict[str, Any]]] = []
+        page.route_web_socket(re.compile("/api/live$"), self._open)
+
+    def _open(self, socket: Any) -> None:
+        asked: list[dict[str, Any]] = []
+        self.sockets.append(socket)
+        self.asked.append(asked)
+        socket.on_message(lambda text: asked.append(json.loads(text)))
+        hello = [glider.summary(1, NOW, 20.0), glider.summary(2, NOW, 1.0)]
+        socket.send(json.dumps({"type": "hello", "now": NOW, "vehicles": hello}))
+
+    def ids(self, channel: str) -> list[str]:
+        """Subscriptions of the present socket that hold a channel."""
+        return [m["id"] for m in self.asked[-1] if m["type"] == "subscribe" and channel in m["channels"]]
+
+    def tell(self, channel: str, t: float, value: float, now: float = NOW) -> None:
+        """Say a value to all who asked for it."""
+        for identity in self.ids(channel):
+            message = {"type": "values", "id": identity, "vehicle": 1, "now": now, "values": {channel: [t, value]}}
+            self.sockets[-1].send(json.dumps(message))
+
+
+@pytest.fixture
+def played(page: Any, fake_station: str) -> PlayedStation:
+    """A vehicle view whose socket the test plays."""
+    station = PlayedStation(page)
+    page.goto(f"{fake_station}/#/vehicle/1")
+    page.wait_for_function("document.querySelectorAll('.tile').length > 20")
+    until(page, lambda: bool(station.ids("temperature_degc")))
+    return station
+
+
+def until(page: Any, true: Callable[[], bool], seconds: float = 20.0) -> None:
+    """Let the page go on until something holds."""
+    for _ in range(int(seconds / 0.05)):
+        if true():
+            return
+        page.wait_for_timeout(50)
+    pytest.fail("it did not happen in time")
+
+
+def tile(page: Any, label: str) -> Any:
+    """The tile of a channel."""
+    return page.locator(f'[data-channel="{label}"]')
+
+
+def test_after_a_lost_socket_every_tile_shows_its_latest_value_and_age(page: Any, played: PlayedStation) -> None:
+    """akhenry/openmct-yamcs#133: a value that is sent rarely stayed stale for ever; here the station tells it again."""
+    played.tell("temperature_degc", NOW - 4.0, 11.25)
+    water = tile(page, "Temperature of the sea")
+    water.get_by_text("11.3").wait_for()
+    before = {json.dumps(sorted(m["channels"])) for m in played.asked[0] if m["type"] == "subscribe"}
+    played.sockets[-1].close()
+    until(page, lambda: len(played.sockets) == 2)
+    until(page, lambda: {json.dumps(sorted(m["channels"])) for m in played.asked[1]} >= before)
+    played.tell("temperature_degc", NOW - 3000.0, 14.5)  # of the archive: older than twice its period of 600 s
+    water.get_by_text("14.5").wait_for()
+    assert "stale" in (water.get_attribute("class") or "")
+    water.get_by_text(re.compile("^old, (49|50|51)")).wait_for()
+
+
+def test_a_subscription_that_fails_leaves_the_others_alone(page: Any, played: PlayedStation) -> None:
+    """akhenry/openmct-yamcs#220: opening one view dropped all live data."""
+    attitude = next(m["id"] for m in played.asked[-1] if m.get("channels") == ["pitch_deg", "roll_deg", "heading_deg"])
+    played.sockets[-1].send(json.dumps({"type": "error", "id": attitude, "reason": "There is no such channel."}))
+    played.tell("depth_m", NOW - 1.0, 87.25)
+    tile(page, "Depth").get_by_text("87.3").wait_for()
+    assert len(played.sockets) == 1
+
+
+def test_ages_are_those_of_the_server_although_the_browsers_clock_is_wrong(page: Any, fake_station: str) -> None:
+    """Issue: browser clock wrong. The oracle is what the station says; the browser believes that it is 1999."""
+    page.add_init_script("const at = Date.UTC(1999, 0, 1); Date.now = () => at;")
+    station = PlayedStation(page)
+    page.goto(f"{fake_station}/#/vehicle/1")
+    until(page, lambda: len(station.asked) == 1 and bool(station.ids("voltage_v")))
+    station.tell("voltage_v", NOW - 1800.0, 27.5)
+    tile(page, "Voltage of the battery").get_by_text(re.compile("^old, (29|30|31)")).wait_for()
+
+
+def test_the_page_says_that_the_station_is_lost_and_tries_again(page: Any, fake_station: str) -> None:
+    """The banner comes within seconds of the loss, and goes by itself."""
+    sockets: list[Any] = []
+    refuse = {"now": False}
+
+    def opened(socket: Any) -> None:
+        if refuse["now"]:
+            socket.close()
+            return
+        sockets.append(socket)
+        socket.send(json.dumps({"type": "hello", "now": NOW, "vehicles": [glider.summary(1, NOW, 20.0)]}))
+
+    page.route_web_socket(re.compile("/api/live$"), opened)
+    page.goto(f"{fake_station}/#/fleet")
+    page.get_by_role("link", name="ZJU glider", exact=True).wait_for()
+    refuse["now"] = True
+    sockets[0].close()
+    banner = page.get_by_text("The station is not reached")
+    banner.wait_for()
+    assert page.locator(".lamp", has_text="station lost").count() == 1
+    page.get_by_role("link", name="ZJU glider", exact=True).wait_for()  # what was known stays
+    refuse["now"] = False
+    banner.wait_for(state="detached", timeout=15_000)
+    assert len(sockets) == 2

@@ -9,10 +9,14 @@ import time
 import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 import stommel
+
+if TYPE_CHECKING:
+    from tests.page.past import Past
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILT = Path(stommel.__file__).parent / "station" / "built" / "index.html"
@@ -165,3 +169,12 @@ def serious(page) -> Callable[[], list[str]]:
         ]
 
     return find
+
+
+@pytest.fixture(scope="session")
+def past(built: None, tmp_path_factory: pytest.TempPathFactory) -> "Iterator[Past]":
+    """A real station with six hours of the past, and a vehicle that says what a test wants."""
+    from tests.page.past import past_station
+
+    with past_station(tmp_path_factory.mktemp("past")) as found:
+        yield found

@@ -1,4 +1,4 @@
-"""Minutes and tens of minutes are what the samples of each come to, whatever came late, twice or again: oracle is a search."""
+"""Cells are what the samples of each come to, whatever came late, twice or again: oracle is a search."""
 
 from collections.abc import Iterator
 from itertools import count

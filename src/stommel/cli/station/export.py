@@ -20,6 +20,10 @@ class UnknownVehicleError(StommelError):
     """The archive holds nothing of this vehicle."""
 
 
+class ExportTimeError(StommelError):
+    """A time of which no archive holds anything."""
+
+
 class What(StrEnum):
     """Which samples."""
 
@@ -47,13 +51,12 @@ def export(
     Example: stommel station export --database sea.sqlite --vehicle 1 --output sea.nc
     """
     from stommel.files.whole import require_file
-    from stommel.ocean.times import seconds
     from stommel.station.archive import Archive
     from stommel.station.archive.address import address_of
     from stommel.station.archive.looking import require_there
 
     require_file(output, (".csv",) if what is What.telemetry else (".nc", ".csv"))
-    span = seconds(begin), seconds(end)
+    span = _span(begin, end)
     require_there(address_of(database))
     with Archive.open(database) as archive:
         _require_known(archive, vehicle)
@@ -61,6 +64,19 @@ def export(
         count = write(archive, vehicle, *span, output)
     answer: dict[str, Any] = {"vehicle": vehicle, "what": str(what), "samples": count}
     finish(answer, [output], as_json, lambda _: typer.echo(counted(count, "sample")))
+
+
+def _span(begin: str, end: str) -> tuple[float, float]:
+    from stommel.ocean.times import seconds
+    from stommel.station.archive.times import is_time
+
+    span = seconds(begin), seconds(end)
+    for option, words, t in (("--begin", begin, span[0]), ("--end", end, span[1])):
+        if not is_time(t):
+            raise ExportTimeError(f"{option} {words}: allowed are times from 1970-01-01 to 2100-01-01")
+    if span[0] > span[1]:
+        raise ExportTimeError(f"--end {end}: must not be before --begin {begin}")
+    return span
 
 
 def _require_known(archive: "Archive", vehicle: int) -> None:

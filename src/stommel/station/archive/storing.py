@@ -47,7 +47,7 @@ def write_batch(
     frame_rows = [(vehicle, microseconds(row.t), now_us, *row[1:]) for row in batch.frames]
     insert_rows(connection, frames, _FRAME, frame_rows)
     _write_samples(connection, vehicle, batch.samples, numbers_of)
-    text_rows = [(vehicle, microseconds(t), severity, words) for t, severity, words in batch.texts]
+    text_rows = [(vehicle, microseconds(t), severity, _storable(words)) for t, severity, words in batch.texts]
     insert_rows(connection, texts, _TEXT, text_rows)
     dive_rows = {row.dive: _dive(vehicle, row) for row in batch.dives}
     insert_rows(connection, dives, _DIVE, list(dive_rows.values()), "replace")
@@ -74,6 +74,11 @@ def _write_samples(
     insert_rows(connection, samples, ("vehicle_id", "channel_id", "t_us", "value"), rows, "replace")
     if new:
         keep_up(connection, vehicle, new)
+
+
+def _storable(words: str) -> str:
+    """Words without what PostgreSQL does not take: the character 0, halves of pairs."""
+    return words.replace("\0", "").encode("utf-8", "replace").decode()
 
 
 def _dive(vehicle: int, row: DiveRow) -> tuple[Any, ...]:

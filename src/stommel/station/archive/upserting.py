@@ -5,7 +5,7 @@ takes a dictionary a row, which at thousands of rows a second is most of the wor
 """
 
 from collections.abc import Sequence
-from functools import cache
+from functools import lru_cache
 from typing import Any, Literal
 
 from sqlalchemy import Connection, Dialect, Table
@@ -32,7 +32,7 @@ def insert_rows(
         connection.exec_driver_sql(statement, tuple(list(column) for column in zip(*rows, strict=True)))
 
 
-@cache
+@lru_cache(maxsize=64)  # an engine has a dialect of its own
 def _statement(table: Table, columns: tuple[str, ...], known: Known, dialect: Dialect) -> str:
     quote = dialect.identifier_preparer.quote
     names = ", ".join(map(quote, columns))

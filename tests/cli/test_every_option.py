@@ -370,6 +370,21 @@ ELSEWHERE = {
     "sitl campaign": "tests/sitl/test_campaign_command: --output, --runs, --seed, --workers, --scheduler, --restart",
     "sitl replay": "tests/sitl/test_campaign_command: --seed",
     "study": "tests/studies: --output, --workers, --scheduler, --restart, --plots",
+    "station serve": "tests/cli/test_station_serve: --database, --folder, --link, --vehicle, --key, --unsigned, "
+    "--model, --speed, --settings, --name, --host, --port, --certificate, --key-file, --behind-proxy, --login",
+    **{
+        f"station {verb}": f"tests/cli/test_station_people: --database, --settings, --folder{own}"
+        for verb, own in {
+            "user add": ", --role",
+            "user list": "",
+            "user change": ", --role, --keep-out, --let-in",
+            "user password": "",
+            "user remove": "",
+            "token add": ", --role, --days",
+            "token list": "",
+            "token remove": "",
+        }.items()
+    },
     "ocean show": "tests/ocean: --unit, --bounds, --between, --outside, --outside-time, --climatology, --at-rest",
 }
 

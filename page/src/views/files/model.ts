@@ -9,7 +9,7 @@ export interface Entry {
 }
 
 export interface Transfer {
-  id: number | string;
+  id: number;
   path: string;
   direction: 'download' | 'upload';
   state: string;
@@ -20,7 +20,7 @@ export interface Transfer {
   size: number | null;
   rate: number | null;
   seconds_left: number | null;
-  user?: string | null;
+  user: string | null;
 }
 
 export interface StoredFile {
@@ -43,6 +43,7 @@ export function transferWords(transfer: Transfer): string {
   const state = plainState(transfer.state);
   if (transfer.is_over) return transfer.reason ? `${state}: ${transfer.reason}` : state;
   if (transfer.is_paused) return 'paused; goes on where it was';
+  if (state === 'going') return transfer.reason || (transfer.direction === 'upload' ? 'is being sent' : 'is being fetched');
   return transfer.reason || state;
 }
 

@@ -15,37 +15,39 @@ export interface ParameterRow {
 export interface ComponentRow {
   component: number;
   name: string;
-  is_silent: boolean;
-  is_being_read: boolean;
+  state: 'known' | 'silent' | 'being_read';
+  /** Why not all of it is up to date. */
+  reason: string;
   parameters: ParameterRow[];
 }
 
-/** What the station says of a value that was to be written. */
-export interface Written {
-  state?: string;
-  ending?: string;
-  words?: string | null;
-  value?: number | null;
-}
-
-interface Told {
+/** A value that somebody sets, and what the vehicle said of it. */
+export interface Write {
+  ticket: number;
   component: number;
   name: string;
-  state?: string;
-  is_silent?: boolean;
-  is_being_read?: boolean;
-  parameters: (Omit<ParameterRow, 'component'> & { id?: string; component?: number })[];
+  value: number;
+  user: string;
+  t: number;
+  state: 'waiting' | 'done' | 'refused' | 'failed';
+  words: string;
+  /** Value that holds aboard, as far as the vehicle said. */
+  holds: number | null;
 }
 
-/** The components of an answer of the station. */
-export function componentsOf(answer: unknown): ComponentRow[] {
-  const list = Array.isArray(answer) ? answer : ((answer as { components?: unknown } | null)?.components ?? []);
-  return (list as Told[]).map((each) => ({
-    component: each.component,
-    name: each.name,
-    is_silent: each.is_silent ?? /silent/i.test(each.state ?? ''),
-    is_being_read: each.is_being_read ?? /being.read/i.test(each.state ?? ''),
-    parameters: each.parameters.map((one) => ({ ...one, component: each.component, kind: String(one.kind) })),
+export interface ParameterAnswer {
+  refreshing: { done: number; of: number; seconds_left: number | null } | null;
+  components: (Omit<ComponentRow, 'parameters'> & { parameters: Omit<ParameterRow, 'component'>[] })[];
+  missing: { component: number; name: string; reason: string }[];
+  notes: string[];
+  writes: Write[];
+}
+
+/** The components of an answer, each parameter with its component. */
+export function componentsOf(answer: ParameterAnswer): ComponentRow[] {
+  return answer.components.map((each) => ({
+    ...each,
+    parameters: each.parameters.map((one) => ({ ...one, component: each.component })),
   }));
 }
 

@@ -7,23 +7,25 @@ import { tidy, type Plan } from './plan';
 
 export interface MissionRow {
   id: number;
+  vehicle: number;
   t: number;
+  /** Who gave it; null: it was found aboard. */
   user: string | null;
   name: string;
   sha256: string;
   state: string;
-  words?: string | null;
-  plan?: unknown;
-  share?: number | null;
-  history?: { t: number; state: string; words: string | null; user?: string | null }[];
+  words: string;
 }
 
 interface MissionAboard {
+  number: number | null;
   name: string | null;
-  number?: number | null;
-  sha256?: string | null;
-  waypoints?: (Place & { radius_m?: number | null })[];
-  missing?: string | null;
+  sha256: string | null;
+  previous_sha256: string | null;
+  /** Why something is not known, or what the last request came to. */
+  missing: string | null;
+  waypoints: (Place & { radius_m: number })[];
+  upload: (MissionRow & { progress: { done: number; of: number; seconds_left: number | null } | null }) | null;
 }
 
 export class Aboard {
@@ -43,6 +45,12 @@ export class Aboard {
     return this.mission?.waypoints ?? [];
   }
 
+  /** How much of the mission on its way has arrived, 0 to 1; null where none is. */
+  get share(): number | null {
+    const progress = this.mission?.upload?.progress;
+    return progress ? progress.done / Math.max(1, progress.of) : null;
+  }
+
   /** The mission that was uploaded last. */
   get latest(): MissionRow | null {
     return this.rows[0] ?? null;
@@ -60,8 +68,12 @@ export class Aboard {
       }),
       live.onOpen(() => void this.load()),
     ];
+    const again = setInterval(() => {
+      if (this.mission?.upload) void this.load();
+    }, 1500);
     return () => {
       clearTimeout(timer);
+      clearInterval(again);
       stops.forEach((stop) => stop());
     };
   }
@@ -73,7 +85,7 @@ export class Aboard {
         api.get<MissionRow[]>(`/vehicles/${this.vehicle}/missions`),
       ]);
       this.mission = mission;
-      this.rows = [...rows].sort((a, b) => b.t - a.t);
+      this.rows = rows;
       this.reason = '';
     } catch (error) {
       this.reason = sentence(error);

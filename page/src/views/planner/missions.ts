@@ -3,21 +3,13 @@
 import { plainState, type Tone } from '../commands/model';
 
 const WORDS: Record<string, string> = {
-  given: 'waits for the link',
-  queued: 'waits for the link',
   waiting: 'waits for the link',
   sending: 'is being sent',
-  uploading: 'is being sent',
-  sent: 'sent',
-  arrived: 'whole aboard',
-  checked: 'taken by the vehicle',
-  switched: 'flown by the vehicle',
-  done: 'flown by the vehicle',
+  aboard: 'the vehicle has switched to it',
+  replaced: 'held before',
   refused: 'refused by the vehicle',
   failed: 'failed',
-  cancelled: 'cancelled',
-  replaced: 'flown before',
-  superseded: 'flown before',
+  interrupted: 'interrupted',
 };
 
 /** A state of a mission as people say it. */
@@ -28,8 +20,8 @@ export function missionWords(state: string): string {
 
 export function missionTone(state: string): Tone {
   const plain = plainState(state);
-  if (/switched|done|aboard|flown/.test(plain)) return 'ok';
-  if (/refused|failed/.test(plain)) return 'warning';
-  if (/cancelled|replaced|superseded/.test(plain)) return '';
-  return 'accent';
+  if (plain === 'aboard') return 'ok';
+  if (plain === 'refused' || plain === 'failed') return 'warning';
+  if (plain === 'interrupted') return 'caution';
+  return plain === 'replaced' ? '' : 'accent';
 }

@@ -15,11 +15,14 @@ _SENTENCE = re.compile(r"(?P<key>[A-Za-z_][\w.]*)(?: = (?P<value>.+?))?: (?P<res
 _ALLOWED = (
     (re.compile(r"\bmust (?:be )?([^;]+)"), "{}"),
     (re.compile(r"(?:deeper than|more than|below) [^,]+, ([\d.]+ \w+)$"), "at most {}"),
+    (re.compile(r"outside the ocean, which has (.+)"), "{}"),
     (re.compile(r"\bknown keys: (.+)"), "one of {}"),
     (re.compile(r" is missing; (?:add|it) (.+)"), "{}"),
 )
 """How sentences say what is allowed."""
 _LONGEST_KEY = 120
+_OF_FILES = '; outside = "hold" or "climatology" allows it'
+"""Advice that no plan can follow."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,7 @@ class PlanError(StommelError):
 
 def problem(key: str, sentence: str) -> PlanProblem:
     """Take a sentence apart that names key, value and what is allowed, as all of stommel's do."""
+    sentence = sentence.removesuffix(_OF_FILES)
     if key and sentence.startswith(f"{key}: {key}"):  # said of a table as a whole, in words that name it already
         key, sentence = "", sentence.removeprefix(f"{key}: ")
     found = _SENTENCE.fullmatch(sentence)

@@ -22,7 +22,7 @@ NEAR = 60.0
 UNSET_FOR = 900.0
 """A simulated vehicle that has not told its clock for so long gets ours [s since its boot, by itself]."""
 TICK = 2e-6
-"""Between two times that the archive keeps apart for sure: it has whole microseconds, a float of today about a quarter."""
+"""Between two times that the archive, which has whole microseconds, keeps apart [s]."""
 
 Early = tuple[bytes, Sequence[Received], float]
 

@@ -55,7 +55,9 @@ def test_waypoints_are_inserted_moved_deleted_and_had_back_by_keyboard(view: Any
     view.keyboard.press("Control+Enter")
     view.locator("[data-place='waypoints.4']").wait_for()
     between = plan(view)["waypoints"][1]
-    assert between["latitude_deg"] == pytest.approx((places[0]["latitude_deg"] + places[1]["latitude_deg"]) / 2, abs=1e-5)
+    assert between["latitude_deg"] == pytest.approx(
+        (places[0]["latitude_deg"] + places[1]["latitude_deg"]) / 2, abs=1e-5
+    )
     cell(view, 1, "latitude").focus()
     view.keyboard.press("Alt+ArrowDown")
     assert plan(view)["waypoints"][1] == places[0]
@@ -167,7 +169,9 @@ def test_a_preview_is_cancelled(view: Any) -> None:
     cancel.wait_for(state="detached")
 
 
-def test_a_plan_is_uploaded_and_followed_until_the_vehicle_has_switched(view: Any, station: str, screenshot: Any) -> None:
+def test_a_plan_is_uploaded_and_followed_until_the_vehicle_has_switched(
+    view: Any, station: str, screenshot: Any
+) -> None:
     """Oracle: the mission that the vehicle itself says it holds."""
     name = "Uploaded by a test"
     view.get_by_label("Name of the plan").fill(name)

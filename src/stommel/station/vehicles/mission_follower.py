@@ -183,6 +183,9 @@ class MissionFollower:
         if task.row is not None:
             if outcome.ending is Ending.WHOLE:
                 self._be_aboard(line, task.row, now, "taken by the vehicle, whole")
+                if self.held is not None:  # orders before, still being fetched, are not aboard any more
+                    new = bytes.fromhex(task.row.sha256)
+                    self.held = self.held._replace(name=task.row.name, sha256=new, previous=self.held.sha256)
             else:
                 state = REFUSED if outcome.ending is Ending.REFUSED else FAILED
                 self._rows.change(task.row.id, state, words, now)

@@ -91,3 +91,14 @@ def test_what_cannot_be_is_one_line(
     assert answer.err.count("\n") == 1
     if typed_in:
         assert typed_in not in answer.err
+
+
+def test_the_archive_is_found_by_folder_and_by_settings(stommel: Command, typed: Any, tmp_path: Path) -> None:
+    """Paths of station.toml are from where it lies; without --database the archive is in the folder."""
+    (tmp_path / "pier").mkdir()
+    (tmp_path / "pier" / "station.toml").write_text('folder = "kept"\n', encoding="utf-8")
+    typed(f"{PASSWORD}\n")
+    stommel("station", "user", "add", "ada", "--role", "admin", "--settings", "pier/station.toml")
+    for words in (("--folder", "pier/kept"), ("--settings", "pier/station.toml")):
+        assert [row["name"] for row in stommel("station", "user", "list", *words, "--json").json] == ["ada"]
+    assert (tmp_path / "pier" / "kept" / "archive.sqlite").is_file()

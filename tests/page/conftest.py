@@ -9,10 +9,14 @@ import time
 import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 import stommel
+
+if TYPE_CHECKING:
+    from tests.page.past import Past
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILT = Path(stommel.__file__).parent / "station" / "built" / "index.html"
@@ -105,9 +109,9 @@ def heard(address: str, seconds: float = 240.0) -> None:
     pytest.fail(f"the simulated glider told nothing within {seconds} s")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def browser() -> "Iterator[object]":
-    """Debian's Chromium without a window."""
+    """Debian's Chromium without a window; while it is there, no other event loop runs in this thread."""
     sync_api = pytest.importorskip("playwright.sync_api")
     if not CHROMIUM.exists():
         pytest.skip(f"no Chromium at {CHROMIUM}")
@@ -152,8 +156,10 @@ def serious(page) -> Callable[[], list[str]]:
     if not AXE.exists():
         pytest.skip("axe-core is not installed: make page")
 
+    source = AXE.read_text(encoding="utf-8") + ";0"
+
     def find() -> list[str]:
-        page.add_script_tag(path=AXE)
+        page.evaluate(source)  # not a script tag: the station's content security policy forbids foreign scripts
         found = page.evaluate("axe.run(document, {resultTypes: ['violations']})")["violations"]
         return [
             f"{one['id']}: {node['target']} {node['failureSummary']}"
@@ -163,3 +169,12 @@ def serious(page) -> Callable[[], list[str]]:
         ]
 
     return find
+
+
+@pytest.fixture(scope="session")
+def past(built: None, tmp_path_factory: pytest.TempPathFactory) -> "Iterator[Past]":
+    """A real station with six hours of the past, and a vehicle that says what a test wants."""
+    from tests.page.past import past_station
+
+    with past_station(tmp_path_factory.mktemp("past")) as found:
+        yield found

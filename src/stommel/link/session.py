@@ -86,16 +86,18 @@ class Session:
         return {peer: watch.counts for peer, watch in self._watches.items()}
 
     def take(self, data: bytes, t: float) -> list[Received]:
-        """Take bytes that came until a time [s], and return the messages that were accepted."""
-        accepted = self._settle(t)
+        """Take bytes that came until a time [s], and return the messages that were accepted.
+
+        Only a look that finds no bytes tells a silence: of those that came while nobody looked, it is not known when.
+        """
         if not data:
-            return accepted
+            return self._settle(t)
         self._last_bytes = t
         if self.rate is not None:
             self.rate.heard(len(data))
         frames = self._splitter.take(data)
         self.line.heard(len(data), len(frames), t)
-        return accepted + self._accept(frames, t)
+        return self._accept(frames, t)
 
     def poll(self, t: float, room: int) -> bytes:
         """Return at most so many bytes to send at a time [s]."""

@@ -122,6 +122,19 @@ def test_frames_of_a_range_come_in_order_of_time(archive: Archive) -> None:
     assert found == [1, 2, 3]
 
 
+def test_words_that_a_database_does_not_take_are_stored_without_them(archive: Archive) -> None:
+    archive.store(1, Batch(texts=[(T, 6, "a\0b"), (T + 1, 6, "half \ud800")]))
+    assert [row.words for row in archive.texts(1)] == ["ab", "half ?"]
+
+
+def test_the_greatest_numbers_of_a_radio_message_fit(archive: Archive) -> None:
+    row = FrameRow(T, "in", 255, 255, 0xFFFFFF, 255, True, bytes(280))
+    archive.store(1, Batch([row], dives=[DiveRow(0xFFFFFFFF, T)], ctd=[CtdRow(T, 0xFFFFFFFF, 1e38, -1e38, 1e-45)]))
+    assert archive.dives(1) == [DiveRow(0xFFFFFFFF, T)]
+    assert archive.ctd(1) == [CtdRow(T, 0xFFFFFFFF, 1e38, -1e38, 1e-45)]
+    assert archive.frames(1)[0].row == row
+
+
 def test_texts_are_the_newest_of_their_range(archive: Archive) -> None:
     archive.store(1, Batch(texts=[(T + k, 6, f"text {k}") for k in range(10)]))
     assert [row.words for row in archive.texts(1, end=T + 5, limit=2)] == ["text 4", "text 5"]

@@ -90,4 +90,10 @@ def test_a_way_that_repeats_has_a_leg_back() -> None:
     plan = plan_with(guidance={"repeat": True})
     assert [leg.key for leg in legs_of(plan_from(plan))] == ["waypoints.0", "waypoints.1", "waypoints.0"]
     assert [leg.key for leg in legs_of(plan_from(plan_with()))] == ["waypoints.0", "waypoints.1"]
-    assert legs_of(plan_from(plan_with(waypoints=[]))) == []
+
+
+def test_a_way_without_waypoints_leads_nowhere() -> None:
+    """Oracle: the dive cycle: with no waypoint left the mission is complete, before the first dive."""
+    plan = plan_from(plan_with(waypoints=[]))
+    assert legs_of(plan) == []
+    assert [(problem.key, problem.allowed) for problem in way_problems(plan)] == [("waypoints", "at least 1")]

@@ -1,37 +1,16 @@
-"""A station with the simulator behind it, one process for all tests of a module, and a vehicle 1 of the model zju."""
+"""A station with vehicle 1, whose radio is silent, and the simulator behind it: its processes serve a whole module."""
 
 from collections.abc import Iterator
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
 import httpx
 import pytest
 
 from stommel.station.preview.previews import Previews
+from stommel.station.station import Station
 from stommel.station.web.app import create_app
-from tests.support.station_served import StandInStation, served
-
-NOW = 1_782_864_000.0
-"""2026-07-01T00:00:00Z."""
-
-
-class PlanningStation(StandInStation):
-    """Vehicle 1 lies on the shelf of the East China Sea."""
-
-    def __init__(self, folder: Path, previews: Previews) -> None:
-        super().__init__(folder)
-        self.previews = previews
-        self.vehicles = {1: SimpleNamespace(vehicle=1, settings=SimpleNamespace(model="zju"))}
-        self.archive.know(1, "Petrel", "zju")
-        self.position: dict[str, float] | None = {"latitude": 28.70, "longitude": 126.10}
-
-    def summary(self, vehicle: int) -> dict[str, Any]:
-        return {"vehicle": vehicle, "position": self.position}
-
-    def now(self, vehicle: int | None = None) -> float:
-        del vehicle
-        return NOW
+from tests.station.stations import station as silent_station
+from tests.support.station_served import served
 
 
 @pytest.fixture(scope="module")
@@ -42,13 +21,13 @@ def previews() -> Iterator[Previews]:
 
 
 @pytest.fixture
-def station(tmp_path: Path, previews: Previews) -> Iterator[PlanningStation]:
-    station = PlanningStation(tmp_path, previews)
-    yield station
-    station.close()
+def station(tmp_path: Path, previews: Previews) -> Iterator[Station]:
+    with silent_station(tmp_path, "tcp:127.0.0.1:9", start=False) as station:
+        station.previews = previews
+        yield station
 
 
 @pytest.fixture
-def client(station: PlanningStation) -> Iterator[httpx.Client]:
+def client(station: Station) -> Iterator[httpx.Client]:
     with served(create_app(station)) as address, httpx.Client(base_url=address, timeout=120.0) as client:
         yield client

@@ -1,11 +1,14 @@
 """A station of the web door's own tests: on loopback, and one where people log in."""
 
 from collections.abc import Iterator
+from contextlib import closing
+from functools import cache
 from pathlib import Path
 
 import httpx
 import pytest
 
+from stommel.station.people import passwords, users
 from stommel.station.people.roles import Role
 from stommel.station.station import Station
 from stommel.station.web.app import create_app
@@ -28,9 +31,14 @@ def local(station: Station) -> Iterator[httpx.Client]:
         yield client
 
 
+_hashed_once = cache(passwords.hashed)
+"""Argon2 takes its time, and four people have one password here."""
+
+
 @pytest.fixture
-def address(station: Station) -> Iterator[str]:
+def address(station: Station, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     """Where people log in: vera views, paul and pia fly, ada looks after the station."""
+    monkeypatch.setattr(users, "hashed", _hashed_once)
     for name, role in (("vera", Role.VIEWER), ("paul", Role.PILOT), ("pia", Role.PILOT), ("ada", Role.ADMIN)):
         station.people.users.add(name, PASSWORD, role)
     with served(create_app(station, Exposure(login=True))) as address:
@@ -39,23 +47,23 @@ def address(station: Station) -> Iterator[str]:
 
 @pytest.fixture
 def vera(address: str) -> Iterator[httpx.Client]:
-    with logged_in(address, "vera") as client:
+    with closing(logged_in(address, "vera")) as client:
         yield client
 
 
 @pytest.fixture
 def paul(address: str) -> Iterator[httpx.Client]:
-    with logged_in(address, "paul") as client:
+    with closing(logged_in(address, "paul")) as client:
         yield client
 
 
 @pytest.fixture
 def pia(address: str) -> Iterator[httpx.Client]:
-    with logged_in(address, "pia") as client:
+    with closing(logged_in(address, "pia")) as client:
         yield client
 
 
 @pytest.fixture
 def ada(address: str) -> Iterator[httpx.Client]:
-    with logged_in(address, "ada") as client:
+    with closing(logged_in(address, "ada")) as client:
         yield client

@@ -1,5 +1,9 @@
 """Logging in, holds, tokens and the audit log as a browser and a script see them."""
 
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
 import httpx
 import pytest
 
@@ -90,7 +94,7 @@ def test_tokens_of_others_are_not_seen_nor_removed(paul: httpx.Client, pia: http
     assert ada.delete(f"/api/tokens/{number}").status_code == 204
 
 
-@pytest.mark.parametrize("header", ["Bearer x", "Bearer", "Basic YTpi", "bearer  ", "Token x"])
+@pytest.mark.parametrize("header", ["Bearer x", "Bearer", "Basic YTpi", "Token x"])
 def test_a_wrong_token_is_no_visitor_of_the_loopback(local: httpx.Client, header: str) -> None:
     answer = local.get("/api/vehicles", headers={"Authorization": header})
     assert answer.status_code == (200 if not header.partition(" ")[2].strip() else 401)
@@ -141,10 +145,22 @@ def test_at_the_machine_itself_actions_are_noted_too(local: httpx.Client, statio
     assert (entry.action, entry.user, entry.vehicle) == ("take command", "local", 1)
 
 
-def test_many_logins_at_once_do_not_pile_up(station: Station) -> None:
+def test_many_logins_at_once_do_not_pile_up(station: Station, monkeypatch: pytest.MonkeyPatch) -> None:
     """argon2 takes 64 MB a try: tries wait for each other, and not without end."""
-    from concurrent.futures import ThreadPoolExecutor
+    together, most = 0, 0
+    right = threading.Lock()
 
+    def slow(_given: str, _known: str | None) -> bool:
+        nonlocal together, most
+        with right:
+            together += 1
+            most = max(most, together)
+        time.sleep(0.01)
+        with right:
+            together -= 1
+        return False
+
+    monkeypatch.setattr("stommel.station.people.people.verified", slow)
     with served(create_app(station, Exposure(login=True))) as address, ThreadPoolExecutor(40) as crowd:
 
         def attempt(number: int) -> int:
@@ -154,3 +170,4 @@ def test_many_logins_at_once_do_not_pile_up(station: Station) -> None:
         found = list(crowd.map(attempt, range(60)))
     assert set(found) <= {401, 429}
     assert found.count(401) == 20  # as many as one address may try in a minute
+    assert most == 1

@@ -3,7 +3,7 @@
 import { ticks as niceTicks } from 'd3-array';
 
 import { token } from '../../lib/theme.svelte';
-import { tickWords } from '../plots/times';
+import { tickWords } from '../../lib/times';
 
 export interface Axis {
   readonly low: number;

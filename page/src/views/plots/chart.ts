@@ -3,7 +3,7 @@
 import uPlot from 'uplot';
 
 import { token } from '../../lib/theme.svelte';
-import { tickWords } from './times';
+import { tickWords } from '../../lib/times';
 import type { Interval } from './window';
 
 export interface Ink {

@@ -41,6 +41,9 @@ export function gapAfter(period_s: number | null | undefined): number {
   return period_s && period_s > 0 ? 5 * period_s : Infinity;
 }
 
+/** The archive keeps whole microseconds: times that are nearer than that are one. */
+const SAME_S = 1.5e-6;
+
 /** The trace with later samples behind it; a null between two that are too far apart; older ones than begin fall off. */
 export function extended(
   trace: Trace | undefined, t: readonly number[], value: readonly (number | null)[], begin: number, gap_s: number,
@@ -49,7 +52,7 @@ export function extended(
   const values = trace ? [...trace.value] : [];
   t.forEach((time, index) => {
     const last = times.at(-1);
-    if (last !== undefined && time <= last) return;
+    if (last !== undefined && time <= last + SAME_S) return;
     if (last !== undefined && time - last > gap_s && values.at(-1) !== null) {
       times.push((last + time) / 2);
       values.push(null);

@@ -13,6 +13,8 @@ export interface ReplayState {
   readonly speed: number;
   readonly paused: boolean;
   readonly ended?: boolean;
+  /** Why nothing comes; empty while all is well. */
+  readonly reason?: string;
 }
 
 export class Player {

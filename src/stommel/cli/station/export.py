@@ -8,7 +8,7 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption
-from stommel.cli.station.database import DatabaseOption
+from stommel.cli.station.options import DatabaseOption, FolderOption, SettingsOption, database_url
 from stommel.errors import OutputError, StommelError
 from stommel.files.units import counted
 
@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 
 class UnknownVehicleError(StommelError):
     """The archive holds nothing of this vehicle."""
+
+
+class ExportTimeError(StommelError):
+    """A time of which no archive holds anything."""
 
 
 class What(StrEnum):
@@ -32,7 +36,6 @@ EndOption = Annotated[str, typer.Option("--end", metavar="TIME", help="Last time
 
 
 def export(
-    database: DatabaseOption,
     vehicle: Annotated[int, typer.Option("--vehicle", min=1, max=250, help="Number of the vehicle.")],
     output: Annotated[Path, typer.Option("--output", metavar="FILE", help="Ends with .nc or .csv.")],
     what: Annotated[
@@ -40,6 +43,9 @@ def export(
     ] = What.ctd,
     begin: BeginOption = "1970-01-01",
     end: EndOption = "2100-01-01",
+    database: DatabaseOption = None,
+    settings: SettingsOption = None,
+    folder: FolderOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Write what a vehicle sampled to a file; the station may go on writing to the archive.
@@ -47,20 +53,33 @@ def export(
     Example: stommel station export --database sea.sqlite --vehicle 1 --output sea.nc
     """
     from stommel.files.whole import require_file
-    from stommel.ocean.times import seconds
     from stommel.station.archive import Archive
     from stommel.station.archive.address import address_of
     from stommel.station.archive.looking import require_there
 
     require_file(output, (".csv",) if what is What.telemetry else (".nc", ".csv"))
-    span = seconds(begin), seconds(end)
-    require_there(address_of(database))
-    with Archive.open(database) as archive:
+    span = _span(begin, end)
+    url = database_url(settings, database, folder)
+    require_there(address_of(url))
+    with Archive.open(url) as archive:
         _require_known(archive, vehicle)
         write = _write_telemetry if what is What.telemetry else _write_ctd
         count = write(archive, vehicle, *span, output)
     answer: dict[str, Any] = {"vehicle": vehicle, "what": str(what), "samples": count}
     finish(answer, [output], as_json, lambda _: typer.echo(counted(count, "sample")))
+
+
+def _span(begin: str, end: str) -> tuple[float, float]:
+    from stommel.ocean.times import seconds
+    from stommel.station.archive.times import is_time
+
+    span = seconds(begin), seconds(end)
+    for option, words, t in (("--begin", begin, span[0]), ("--end", end, span[1])):
+        if not is_time(t):
+            raise ExportTimeError(f"{option} {words}: allowed are times from 1970-01-01 to 2100-01-01")
+    if span[0] > span[1]:
+        raise ExportTimeError(f"--end {end}: must not be before --begin {begin}")
+    return span
 
 
 def _require_known(archive: "Archive", vehicle: int) -> None:

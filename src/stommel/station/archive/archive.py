@@ -21,7 +21,7 @@ from stommel.station.archive.schema import channels, vehicles
 from stommel.station.archive.series import Series, read_series, window_of
 from stommel.station.archive.storing import write_batch
 from stommel.station.archive.times import GREATEST_TIME
-from stommel.station.archive.upserting import insert_new, upsert
+from stommel.station.archive.upserting import insert_rows
 
 
 class Archive:
@@ -113,7 +113,7 @@ class Archive:
         with self.writing() as connection:
             there = connection.execute(vehicles.update().where(vehicles.c.id == vehicle).values(row)).rowcount
             if not there:
-                upsert(connection, vehicles, [{"id": vehicle, "added_us": round(time.time() * 1e6), **row}])
+                connection.execute(vehicles.insert().values(id=vehicle, added_us=round(time.time() * 1e6), **row))
 
     def vehicles(self) -> dict[int, str]:
         """Names of the vehicles that are known, by their numbers."""
@@ -205,7 +205,7 @@ class Archive:
         new = sorted(keys - self._numbers.keys())
         if not new:
             return self._numbers
-        insert_new(connection, channels, [{"key": key} for key in new])
+        insert_rows(connection, channels, ("key",), [(key,) for key in new], "keep")
         found = connection.execute(select(channels.c.key, channels.c.id).where(channels.c.key.in_(new)))
         for key, number in found:
             added[key] = number

@@ -6,12 +6,13 @@ A month at 1 Hz is 2.6 million samples, 43 200 minutes or 4 320 times ten: long 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from typing import NamedTuple
 
 from sqlalchemy import Connection, Table, select
 
 from stommel.station.archive.schema import minutes, samples, ten_minutes
 from stommel.station.archive.times import MINUTE_US
-from stommel.station.archive.upserting import upsert
+from stommel.station.archive.upserting import insert_rows
 
 Place = tuple[int, int]
 """Channel and number of the cell."""
@@ -31,11 +32,10 @@ LEVELS = (Level(minutes, MINUTE_US), Level(ten_minutes, 10 * MINUTE_US))
 """From fine to coarse."""
 
 
-@dataclass(frozen=True)
-class Cell:
+class Cell(NamedTuple):
     """One stretch of one channel; the columns of its table after the key."""
 
-    count: int
+    samples: int
     total: float
     first_t_us: int
     first: float
@@ -51,7 +51,7 @@ class Cell:
         low = later if later.low < self.low else self
         high = later if later.high > self.high else self
         return Cell(
-            self.count + later.count, self.total + later.total,
+            self.samples + later.samples, self.total + later.total,
             self.first_t_us, self.first, later.last_t_us, later.last,
             low.low_t_us, low.low, high.high_t_us, high.high,
         )  # fmt: skip
@@ -97,7 +97,6 @@ def _placed(new: dict[int, list[Point]], width_us: int) -> dict[Place, list[Poin
 def _keep_up(connection: Connection, vehicle: int, level: Level, new: dict[Place, list[Point]]) -> None:
     """Join what is added at a cell's end with what was there; make others from all their samples again."""
     known = _known(connection, vehicle, level.table, new)
-    number = level.table.c[2].name
     rows = []
     for place, points in new.items():
         old = known.get(place)
@@ -107,8 +106,8 @@ def _keep_up(connection: Connection, vehicle: int, level: Level, new: dict[Place
             cell = old.joined(cell_of(points))
         else:
             cell = cell_of(_all_points(connection, vehicle, place, level.width_us))
-        rows.append({"vehicle_id": vehicle, "channel_id": place[0], number: place[1], **vars(cell)})
-    upsert(connection, level.table, rows)
+        rows.append((vehicle, *place, *cell))
+    insert_rows(connection, level.table, tuple(level.table.c.keys()), rows, "replace")
 
 
 def _known(connection: Connection, vehicle: int, table: Table, places: Iterable[Place]) -> dict[Place, Cell]:

@@ -6,13 +6,18 @@ from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from sqlalchemy import Connection, insert
+from sqlalchemy import Connection
 
 from stommel.station.archive.cells import Point, keep_up
 from stommel.station.archive.rows import Batch, CtdRow, DiveRow, FrameRow
 from stommel.station.archive.schema import ctd, dives, frames, samples, texts, vehicles
 from stommel.station.archive.times import is_time, microseconds
-from stommel.station.archive.upserting import insert_new, upsert
+from stommel.station.archive.upserting import insert_rows
+
+_FRAME = ("vehicle_id", "t_us", "received_us", *FrameRow._fields[1:])
+_TEXT = ("vehicle_id", "t_us", "severity", "words")
+_DIVE = ("vehicle_id", "dive", "t_begin_us", "t_end_us", *DiveRow._fields[3:])
+_CTD = ("vehicle_id", "t_us", *CtdRow._fields[1:])
 
 
 def write_batch(
@@ -37,21 +42,17 @@ def write_batch(
         A time of a frame, a text, a dive or a CTD sample is none.
     """
     now_us = round(time.time() * 1e6)
-    unnamed = {"id": vehicle, "name": f"vehicle {vehicle}", "model": "", "added_us": now_us}
-    insert_new(connection, vehicles, [unnamed])
-    if batch.frames:
-        connection.execute(insert(frames), [_frame(vehicle, row, now_us) for row in batch.frames])
+    unnamed = (vehicle, f"vehicle {vehicle}", "", now_us)
+    insert_rows(connection, vehicles, ("id", "name", "model", "added_us"), [unnamed], "keep")
+    frame_rows = [(vehicle, microseconds(row.t), now_us, *row[1:]) for row in batch.frames]
+    insert_rows(connection, frames, _FRAME, frame_rows)
     _write_samples(connection, vehicle, batch.samples, numbers_of)
-    if batch.texts:
-        connection.execute(
-            insert(texts),
-            [
-                {"vehicle_id": vehicle, "t_us": microseconds(t), "severity": severity, "words": words}
-                for t, severity, words in batch.texts
-            ],
-        )
-    upsert(connection, dives, list({row.dive: _dive(vehicle, row) for row in batch.dives}.values()))
-    upsert(connection, ctd, list({row.t: _ctd(vehicle, row) for row in batch.ctd}.values()))
+    text_rows = [(vehicle, microseconds(t), severity, _storable(words)) for t, severity, words in batch.texts]
+    insert_rows(connection, texts, _TEXT, text_rows)
+    dive_rows = {row.dive: _dive(vehicle, row) for row in batch.dives}
+    insert_rows(connection, dives, _DIVE, list(dive_rows.values()), "replace")
+    ctd_rows = {microseconds(row.t): (vehicle, microseconds(row.t), *row[1:]) for row in batch.ctd}
+    insert_rows(connection, ctd, _CTD, list(ctd_rows.values()), "replace")
 
 
 def _write_samples(
@@ -68,25 +69,18 @@ def _write_samples(
     new: dict[int, list[Point]] = defaultdict(list)
     rows = []
     for (channel, t_us), value in sorted(values.items()):
-        rows.append({"vehicle_id": vehicle, "channel_id": channel, "t_us": t_us, "value": value})
+        rows.append((vehicle, channel, t_us, value))
         new[channel].append((t_us, value))
-    upsert(connection, samples, rows)
+    insert_rows(connection, samples, ("vehicle_id", "channel_id", "t_us", "value"), rows, "replace")
     if new:
         keep_up(connection, vehicle, new)
 
 
-def _frame(vehicle: int, row: FrameRow, now_us: int) -> dict[str, Any]:
-    fields = row._asdict()
-    return {"vehicle_id": vehicle, "t_us": microseconds(fields.pop("t")), "received_us": now_us, **fields}
+def _storable(words: str) -> str:
+    """Words without what PostgreSQL does not take: the character 0, halves of pairs."""
+    return words.replace("\0", "").encode("utf-8", "replace").decode()
 
 
-def _dive(vehicle: int, row: DiveRow) -> dict[str, Any]:
-    fields = row._asdict()
-    begin, end = fields.pop("t_begin"), fields.pop("t_end")
-    end_us = None if end is None else microseconds(end)
-    return {"vehicle_id": vehicle, "t_begin_us": microseconds(begin), "t_end_us": end_us, **fields}
-
-
-def _ctd(vehicle: int, row: CtdRow) -> dict[str, Any]:
-    fields = row._asdict()
-    return {"vehicle_id": vehicle, "t_us": microseconds(fields.pop("t")), **fields}
+def _dive(vehicle: int, row: DiveRow) -> tuple[Any, ...]:
+    end_us = None if row.t_end is None else microseconds(row.t_end)
+    return (vehicle, row.dive, microseconds(row.t_begin), end_us, *row[3:])

@@ -5,21 +5,24 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from pydantic import ValidationError
-
 from stommel.errors import FileError, StommelError
-from stommel.files.sentences import sentences
+from stommel.files.sentences import validated
 from stommel.station.planner.plan import StationPlan
 
+ORIGIN = "plan"
+"""How sentences name it where it is no file."""
 _SENTENCE = re.compile(r"(?P<key>[A-Za-z_][\w.]*)(?: = (?P<value>.+?))?: (?P<rest>.+)", re.DOTALL)
 _ALLOWED = (
     (re.compile(r"\bmust (?:be )?([^;]+)"), "{}"),
     (re.compile(r"(?:deeper than|more than|below) [^,]+, ([\d.]+ \w+)$"), "at most {}"),
+    (re.compile(r"outside the ocean, which has (.+)"), "{}"),
     (re.compile(r"\bknown keys: (.+)"), "one of {}"),
     (re.compile(r" is missing; (?:add|it) (.+)"), "{}"),
 )
 """How sentences say what is allowed."""
 _LONGEST_KEY = 120
+_OF_FILES = '; outside = "hold" or "climatology" allows it'
+"""Advice that no plan can follow."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,7 @@ class PlanError(StommelError):
 
 def problem(key: str, sentence: str) -> PlanProblem:
     """Take a sentence apart that names key, value and what is allowed, as all of stommel's do."""
+    sentence = sentence.removesuffix(_OF_FILES)
     if key and sentence.startswith(f"{key}: {key}"):  # said of a table as a whole, in words that name it already
         key, sentence = "", sentence.removeprefix(f"{key}: ")
     found = _SENTENCE.fullmatch(sentence)
@@ -67,10 +71,8 @@ def _allowed(sentence: str) -> str:
     return ""
 
 
-def problems_of(error: ValidationError | StommelError, origin: str = "") -> list[PlanProblem]:
+def problems_of(error: StommelError, origin: str = ORIGIN) -> list[PlanProblem]:
     """Everything that an error says is wrong; `origin` is how its sentences name the plan, and is left out."""
-    if isinstance(error, ValidationError):
-        return [problem(key, sentence) for key, sentence in sentences(error, StationPlan)]
     if isinstance(error, PlanError):
         return list(error.problems)
     if isinstance(error, FileError):
@@ -88,6 +90,6 @@ def plan_from(document: Any) -> StationPlan:
         Every key that is unknown, missing or out of range.
     """
     try:
-        return StationPlan.model_validate(document)
-    except ValidationError as error:
+        return validated(document, StationPlan, ORIGIN)
+    except FileError as error:
         raise PlanError(problems_of(error)) from None

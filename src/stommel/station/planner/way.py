@@ -41,7 +41,10 @@ def legs_of(plan: StationPlan) -> list[PlannedLeg]:
 
 
 def way_problems(plan: StationPlan) -> list[PlanProblem]:
-    """Places and legs that leave the geofence, and a geofence that crosses itself."""
+    """A way without waypoints, places and legs that leave the geofence, and a geofence that crosses itself."""
+    if not plan.waypoints:
+        reason = "waypoints: none: the mission would be complete before its first dive: must be at least 1"
+        return [PlanProblem("waypoints", "none", reason, "at least 1")]
     if not plan.geofence:
         return []
     corners = [Place(corner.latitude_deg, corner.longitude_deg) for corner in plan.geofence]

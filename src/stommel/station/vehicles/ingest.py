@@ -21,7 +21,8 @@ NEAR = 60.0
 """A time that a message tells is believed if it is so near to when it came [s]."""
 UNSET_FOR = 900.0
 """A simulated vehicle that has not told its clock for so long gets ours [s since its boot, by itself]."""
-MICROSECOND = 1e-6
+TICK = 2e-6
+"""Between two times that the archive, which has whole microseconds, keeps apart [s]."""
 
 Early = tuple[bytes, Sequence[Received], float]
 
@@ -131,7 +132,7 @@ class Ingest:
 
     def _take(self, data: bytes, accepted: Sequence[Received], t: float) -> None:
         at = self._clock.of_link(t)
-        if self._in.pending and t - self._last_in > SILENCE:
+        if not data and self._in.pending and t - self._last_in > SILENCE:
             self.frames += [_row(frame, "in", at) for frame in self._in.forget()]
         if data:
             self._last_in, self._has_come = t, True
@@ -183,7 +184,7 @@ class Ingest:
             told = self._boot_utc + 1e-3 * _number(values, "time_boot_ms")
             if abs(told - at) <= NEAR * self._clock.speed:
                 return told
-        t = max(at, self._last_time.get(name, -math.inf) + MICROSECOND)
+        t = max(at, self._last_time.get(name, -math.inf) + TICK)
         if t - at > NEAR:  # the clock was set back
             t = at
         self._last_time[name] = t

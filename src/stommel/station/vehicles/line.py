@@ -178,8 +178,7 @@ class VehicleLine:
             try:
                 self._look()
             except Exception as error:  # noqa: BLE001 - one bad look shall not end the line
-                self.failures += 1
-                self.failure = f"a look at the line failed: {type(error).__name__}: {error}"[:300]
+                self._failed("a look at the line", error)
                 self._ends.wait(AGAIN)
             self._wake.wait(BUSY if time.monotonic() < self._lively else QUIET)
             self._wake.clear()
@@ -203,6 +202,11 @@ class VehicleLine:
         self._keep_clock(real)
         if real - self._status_at >= STATUS_EVERY:
             self._status_at, self._status = real, self._seen(t)
+
+    def _failed(self, what: str, error: Exception) -> None:
+        """Keep what went wrong here, for whoever looks after the station."""
+        self.failures += 1
+        self.failure = f"{what} failed: {type(error).__name__}: {error}"[:300]
 
     def _opened(self, real: float) -> Transport | None:
         if self._transport is None and real >= self._open_at:
@@ -258,6 +262,8 @@ class VehicleLine:
                 follower.look(self, t)
             except ArchiveError as error:
                 self.archive_reason = str(error)
+            except Exception as error:  # noqa: BLE001 - one of them shall not silence the others, nor the line
+                self._failed(type(follower).__name__, error)
 
     def _speak(self, transport: Transport, real: float, t: float, *, kept: bool) -> None:
         """Say what is due; while the archive takes nothing, aborts alone."""

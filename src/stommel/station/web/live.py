@@ -9,7 +9,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from fastapi import APIRouter, HTTPException, WebSocket, WebSocketDisconnect
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
 from starlette.concurrency import run_in_threadpool
 
 from stommel.errors import StommelError
@@ -117,7 +117,7 @@ class _Reader:
             document = json.loads(text)
             identity = str(document.get("id", ""))[:_LONGEST_ID] if isinstance(document, dict) else ""
             self._do(_ASKED.validate_python(document))
-        except (ValidationError, ValueError, RecursionError):
+        except (ValueError, RecursionError):
             await self._object(identity, "this message is neither subscribe nor unsubscribe as the guide shows them")
         except StommelError as error:
             await self._object(identity, str(error))

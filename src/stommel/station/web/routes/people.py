@@ -107,6 +107,18 @@ class HolderInfo(BaseModel):
     holder: Hold | None
 
 
+class AuditEntry(BaseModel):
+    """One action of somebody; `t` in seconds since 1970."""
+
+    entry: int
+    t: float
+    user: str | None
+    address: str | None
+    action: str
+    vehicle: int | None
+    detail: Any
+
+
 class _Waiting:
     """Logins one after the other, and not too many that wait."""
 
@@ -218,10 +230,10 @@ def read_audit(
     limit: Annotated[int, Query(ge=1, le=1000)] = 200,
     user: Annotated[str | None, Query(max_length=LONGEST_NAME)] = None,
     vehicle: Annotated[int | None, Query(ge=1, le=250)] = None,
-) -> list[dict[str, Any]]:
+) -> list[AuditEntry]:
     """Who changed what, the newest first; `before` is the number of the last row that was read."""
     rows = _people(request).audit.entries(before=before, limit=limit, user=user, vehicle=vehicle)
-    return [row._asdict() for row in rows]
+    return [AuditEntry(**row._asdict()) for row in rows]
 
 
 @router.get("/vehicles/{vehicle}/holder")

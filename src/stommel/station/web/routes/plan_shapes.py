@@ -83,6 +83,12 @@ class PlannedDive(BaseModel):
     energy_j: float | None
 
 
+class KeptPreview(BaseModel):
+    """What of a preview that was kept is compared."""
+
+    dives: list[PlannedDive]
+
+
 class PlannedWaypoint(BaseModel):
     """What becomes of a waypoint."""
 
@@ -141,12 +147,12 @@ class OpenedPlan(BaseModel):
 
 
 class FlownPlan(OpenedPlan):
-    """The plan of the mission that was sent last."""
+    """The plan of the mission that the vehicle holds."""
 
     mission: str
     sha256: str
-    t: float
-    """When it was sent [s since 1970]."""
+    t: float | None
+    """Since when it holds it [s since 1970]; null where it was found aboard."""
 
 
 class PlanTemplate(BaseModel):
@@ -206,7 +212,7 @@ class Comparison(BaseModel):
 
     mission: str | None
     t: float | None
-    """When the mission was sent [s since 1970]."""
+    """Since when the vehicle holds it [s since 1970]; null where it was found aboard."""
     dives: list[Compared]
     reason: str | None
     """Why there is nothing to compare with."""

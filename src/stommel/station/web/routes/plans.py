@@ -1,15 +1,18 @@
 """Plans: problems, orders, predicted flight, what the vehicle flies as a plan, planned against flown."""
 
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Query
 
+from stommel.errors import FileError
+from stommel.files.sentences import validated
 from stommel.geometry.geodesics import Place
 from stommel.planning.vehicle_limits import vehicle_limits
 from stommel.station.planner.comparison import ComparedDive, compared
 from stommel.station.planner.expected_water import ocean_at
 from stommel.station.planner.fields import plan_fields
-from stommel.station.planner.flown import KeptMission, current_of_last_dive, latest_mission, neutral_density
+from stommel.station.planner.flown import current_of_last_dive, held_mission, neutral_density
 from stommel.station.planner.plan import StationPlan
 from stommel.station.planner.problems import PlanError, plan_from
 from stommel.station.planner.resolving import resolved
@@ -24,6 +27,7 @@ from stommel.station.web.routes.plan_shapes import (
     Comparison,
     FlownPlan,
     Job,
+    KeptPreview,
     OpenedPlan,
     OrdersBody,
     PlanBody,
@@ -38,6 +42,8 @@ router = APIRouter(prefix="/api", tags=["plans"])
 
 JobName = Annotated[str, Path(min_length=1, max_length=64, pattern=r"^[0-9a-f]+$")]
 DEFAULT_VEHICLE = "zju"
+MOST_COMPARED = 2000
+"""Dives of a comparison: the last ones."""
 
 
 @router.get("/plan-templates")
@@ -84,7 +90,7 @@ def open_orders(
 ) -> OpenedPlan:
     """Return the plan of an orders file for a vehicle."""
     _require(station, vehicle)
-    return OpenedPlan(**station.previews.open(body.orders, _around(station, vehicle)))
+    return OpenedPlan(**station.previews.opened(body.orders, _around(station, vehicle)))
 
 
 @router.get("/jobs/{job}")
@@ -102,14 +108,14 @@ def cancel_job(_user: Pilot, job: JobName, station: TheStation) -> Job:
 
 @router.get("/vehicles/{vehicle}/mission/plan")
 def show_flown_plan(_user: Viewer, line: Line, station: TheStation) -> FlownPlan:
-    """Return the plan of the mission that was sent last: as it was made, or as its orders tell."""
-    kept = latest_mission(station.archive, line.vehicle)
-    if kept is None:
-        raise refusal(404, f"this station has sent vehicle {line.vehicle} no mission yet")
-    about = {"mission": kept.name, "sha256": kept.sha256, "t": kept.t}
-    if kept.plan is not None:
-        return FlownPlan.model_validate(about | {"plan": kept.plan, "remarks": []})
-    return FlownPlan.model_validate(about | station.previews.open(kept.orders, _around(station, line.vehicle)))
+    """Return the plan of the mission that the vehicle holds: as it was made, or as its orders tell."""
+    held = held_mission(station.archive, line.vehicle)
+    if held is None:
+        raise refusal(404, f"it is not known which mission vehicle {line.vehicle} holds")
+    about = {"mission": held.name, "sha256": held.sha256, "t": held.begin or None}
+    if held.plan is not None:
+        return FlownPlan.model_validate(about | {"plan": plan_from(held.plan), "remarks": []})
+    return FlownPlan.model_validate(about | station.previews.opened(held.orders, _around(station, line.vehicle)))
 
 
 @router.get("/vehicles/{vehicle}/mission/comparison")
@@ -119,31 +125,32 @@ def compare_mission(
     station: TheStation,
     job: Annotated[str | None, Query(min_length=1, max_length=64, pattern=r"^[0-9a-f]+$")] = None,
 ) -> Comparison:
-    """Return the dives of the mission that was sent last, predicted and flown side by side.
+    """Return the dives of the mission that the vehicle holds, predicted and flown side by side.
 
-    Predicted is what the preview showed that was sent with the plan, or the result of `job`.
+    Predicted is what the preview told that was sent with the plan, or the result of `job`.
     """
-    kept = latest_mission(station.archive, line.vehicle)
-    if kept is None:
-        return Comparison(mission=None, t=None, dives=[], reason="this station has sent the vehicle no mission yet")
-    predicted = _predicted(station, kept, job)
+    held = held_mission(station.archive, line.vehicle)
+    if held is None:
+        return Comparison(mission=None, t=None, dives=[], reason="it is not known which mission the vehicle holds")
+    predicted = _predicted(held.preview if job is None else station.previews.job(job)["result"])
     flown = [row._asdict() for row in station.archive.dives(line.vehicle)]
-    rows = compared(predicted or [], flown, kept.t)
+    rows = compared(predicted or [], flown, held.begin)
     reason = None
     if predicted is None:
-        reason = "no preview was made of the mission that the vehicle flies; preview its plan to compare"
+        reason = "no preview was made of the mission that the vehicle holds; preview its plan to compare"
     elif not any(row.flown for row in rows):
         reason = "the vehicle has reported no dive of this mission yet"
-    dives = [
-        Compared.model_validate(row._asdict() | {"difference": row.difference and row.difference._asdict()})
-        for row in rows
-    ]
-    return Comparison(mission=kept.name, t=kept.t, dives=dives, reason=reason)
+    dives = [_compared(row) for row in rows[-MOST_COMPARED:]]
+    return Comparison(mission=held.name, t=held.begin or None, dives=dives, reason=reason)
 
 
-def _predicted(station: Station, kept: KeptMission, job: str | None) -> list[dict[str, Any]] | None:
-    result = kept.preview if job is None else station.previews.job(job)["result"]
-    return None if result is None else list(result["dives"])
+def _predicted(preview: Mapping[str, Any] | None) -> list[dict[str, Any]] | None:
+    """Dives of a preview; None where there is none, or something else was kept in its place."""
+    try:
+        kept = validated(preview, KeptPreview, "preview")
+    except FileError:
+        return None
+    return [dive.model_dump() for dive in kept.dives]
 
 
 def _compared(row: ComparedDive) -> Compared:

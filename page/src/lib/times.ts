@@ -2,15 +2,20 @@
 
 const pad = (value: number, width = 2): string => String(value).padStart(width, '0');
 
-/** The value of an input of type datetime-local (with seconds) for a time in UTC. */
+/** A time as people write it in a field: 2026-05-03 14:03:25. */
 export function toField(t: number): string {
-  return Number.isFinite(t) ? new Date(Math.round(t) * 1000).toISOString().slice(0, 19) : '';
+  return Number.isFinite(t) ? new Date(Math.round(t) * 1000).toISOString().slice(0, 19).replace('T', ' ') : '';
 }
 
-/** The time in UTC that stands in such an input; null where it holds none. */
+const WRITTEN = /^(\d{4}-\d{2}-\d{2})(?:[T ]+(\d{1,2}):(\d{2})(?::(\d{2}(?:\.\d+)?))?)?\s*(?:Z|UTC)?$/i;
+
+/** The time in UTC that is written in a field, with or without hours and seconds; null where it is none. */
 export function fromField(text: string): number | null {
-  const parsed = Date.parse(text.length === 16 ? `${text}:00Z` : `${text}Z`);
-  return Number.isFinite(parsed) ? parsed / 1000 : null;
+  const found = WRITTEN.exec(text.trim());
+  if (!found) return null;
+  const [, day = '', hours = '0', minutes = '00', seconds = '00'] = found;
+  const parsed = Date.parse(`${day}T${hours.padStart(2, '0')}:${minutes}:${seconds}Z`);
+  return Number.isFinite(parsed) && parsed >= 0 ? parsed / 1000 : null;
 }
 
 const MONTHS = ['Jan', 'Feb', 'Mar', 'Apr', 'May', 'Jun', 'Jul', 'Aug', 'Sep', 'Oct', 'Nov', 'Dec'];

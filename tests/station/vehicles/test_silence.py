@@ -1,0 +1,47 @@
+"""Vehicles that are silent, and several of them. Oracle: what each said."""
+
+from pathlib import Path
+
+from stommel.station.clock import VehicleClock
+from tests.station.speaker import speaker, until
+from tests.station.stations import station
+
+DAY = 86_400.0
+
+
+def test_after_a_day_of_silence_data_are_received_at_once(tmp_path: Path) -> None:
+    """yamcs/yamcs#455: after silence nothing has to be enabled again."""
+    with speaker() as vehicle, station(tmp_path, vehicle.address, start=False) as found:
+        ticks = [0.0]
+        clock = found.vehicles[1].clock
+        real = VehicleClock.link_now
+        clock.link_now = lambda: real(clock) + ticks[0]  # type: ignore[method-assign]
+        found.start()
+        vehicle.connect()
+        vehicle.say("GLIDER_STATE", time_boot_ms=1, depth=1.0)
+        until(lambda: found.vehicles[1].status().heard)
+        ticks[0] = DAY
+        until(lambda: not found.vehicles[1].status().heard)
+        assert found.summary(1)["now"] - found.summary(1)["last_contact"] > 0.99 * DAY
+        vehicle.say("GLIDER_STATE", time_boot_ms=1 + int(1000 * DAY), depth=2.0)
+        until(lambda: found.hub.values(1)["depth_m"][1] == 2.0, within=2.0)
+        until(lambda: found.vehicles[1].status().heard, within=2.0)
+
+
+def test_several_vehicles_at_once_are_kept_apart(tmp_path: Path) -> None:
+    with (
+        speaker(1) as one, speaker(2) as two, speaker(3) as three,
+        station(tmp_path, one.address, two.address, three.address) as found,
+    ):  # fmt: skip
+        for vehicle in (one, two, three):
+            vehicle.connect()
+        for k in range(100):
+            for vehicle in (one, two, three):
+                vehicle.say("GLIDER_STATE", time_boot_ms=k, depth=1000.0 * vehicle.system + k)
+        for number in (1, 2, 3):
+            until(lambda: found.hub.values(number).get("depth_m", (0, 0))[1] == 1000.0 * number + 99)  # noqa: B023
+            assert found.archive.series(number, "depth_m", 0.0, 4e9).samples == 100
+        two.hang_up()
+        until(lambda: not found.vehicles[2].status().is_open)
+        one.say("GLIDER_STATE", time_boot_ms=500, depth=7.0)
+        until(lambda: found.hub.values(1)["depth_m"][1] == 7.0, within=2.0)

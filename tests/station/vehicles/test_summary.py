@@ -1,0 +1,100 @@
+"""What people see first of a vehicle. Oracle: reckoned by hand from dives of round numbers."""
+
+import math
+from typing import Any
+
+import pytest
+
+from stommel.link.statistics import NOTHING_REFUSED, LinkStatistics
+from stommel.station.archive import DiveRow
+from stommel.station.vehicles.line import LineStatus
+from stommel.station.vehicles.summary import Approach, Known, summary_of
+from stommel.station.vehicles.underway import Underway
+
+NOW = 1_800_000_000.0
+FIGURES = LinkStatistics(0, 0, 0, 0, NOTHING_REFUSED, math.nan, math.nan, 0.0, 0.0, 0, math.nan, is_signing=True)
+SILENT = LineStatus(False, None, None, "tcp:there:1", True, "nothing comes", "", 0, FIGURES, ())
+
+
+def known(latest: dict[str, float] | None = None, dives: tuple[DiveRow, ...] = (), **more: Any) -> Known:
+    values = {key: (NOW - 30.0, value) for key, value in (latest or {}).items()}
+    return Known(
+        1, "one", "zju", False, 1.0, NOW, SILENT, values, dives, **{"left_surface": None, "approach": None, **more}
+    )
+
+
+def dive(number: int, begin: float, minutes: float, **more: Any) -> DiveRow:
+    return DiveRow(number, begin, begin + 60.0 * minutes, **more)
+
+
+def test_nothing_is_told_without_its_source_and_each_has_its_reason() -> None:
+    """jenseva/spray_pilot#39, #88."""
+    summary = summary_of(known())
+    nulls = {key for key, value in summary.items() if value is None}
+    assert nulls == set(summary["missing"])
+    assert all(summary["missing"].values())
+
+
+def test_speed_made_good_is_the_way_between_the_ends_of_the_last_dive_by_its_time() -> None:
+    # one minute of arc to the north is 1848 m at 30 deg on WGS 84 (a degree: 110 852 m)
+    way = dive(
+        4, NOW - 7200, 100, latitude_begin=30.0, longitude_begin=126.0, latitude_end=30.0 + 1 / 60, longitude_end=126.0
+    )
+    found = summary_of(known(dives=(way,)))["speed_made_good"]
+    assert found["m_s"] == pytest.approx(110_852 / 60 / 6000, rel=1e-3)
+    assert found["course_deg"] == pytest.approx(0.0, abs=1e-6)
+    over = way._replace(latitude_end=30.0, longitude_begin=179.99, longitude_end=-179.99)
+    found = summary_of(known(dives=(over,)))["speed_made_good"]
+    assert found["course_deg"] == pytest.approx(90.0)
+    assert found["m_s"] == pytest.approx(0.02 * 96_486 / 6000, rel=1e-3)  # a degree of longitude at 30 deg: 96 486 m
+
+
+def test_current_is_of_the_last_dive_that_has_one() -> None:
+    dives = (
+        dive(1, NOW - 9000, 60, current_north_m_s=0.1, current_east_m_s=-0.2),
+        dive(2, NOW - 5000, 60, current_north_m_s=0.3, current_east_m_s=0.4),
+        dive(3, NOW - 1000, 10),
+    )
+    assert summary_of(known(dives=dives))["current"] == {"north_m_s": 0.3, "east_m_s": 0.4, "dive": 2}
+
+
+def test_next_surfacing_is_the_begin_of_the_dive_and_the_mean_of_the_last_three() -> None:
+    dives = tuple(dive(k, NOW - 20_000 + 4000 * k, minutes) for k, minutes in enumerate((999, 50, 60, 70), 1))
+    under_way = known({"phase": 1.0}, dives, left_surface=NOW - 600.0)
+    found = summary_of(under_way)["next_surfacing"]
+    assert found["t"] == NOW - 600.0 + 3600.0
+    assert "3 dives" in found["why"]
+    afloat = known({"phase": 0.0, "surface_time_left_s": 90.0}, dives)
+    assert summary_of(afloat)["next_surfacing"]["t"] == NOW - 30.0 + 90.0 + 3600.0
+    unseen = summary_of(known({"phase": 1.0}, dives))
+    assert unseen["next_surfacing"] is None
+    assert "not seen" in unseen["missing"]["next_surfacing"]
+    held = summary_of(known({"phase": 0.0}, dives))
+    assert "no dive is announced" in held["missing"]["next_surfacing"]
+
+
+def test_eta_is_the_distance_by_how_fast_it_becomes_less() -> None:
+    near = known({"waypoint_distance_m": 3000.0}, approach=Approach(NOW - 5000.0, 0.5))
+    assert summary_of(near)["eta"] == {"t": NOW - 30.0 + 6000.0}
+    away = summary_of(known({"waypoint_distance_m": 3000.0}, approach=Approach(NOW - 5000.0, -0.1)))
+    assert "no closer" in away["missing"]["eta"]
+
+
+def test_alarms_aboard_are_told_in_words_whatever_the_bits() -> None:
+    summary = summary_of(known({"vehicle_alarms": float(1 + 64), "state": 99.0, "phase": 77.0}))
+    assert [alarm["words"] for alarm in summary["alarms"]] == ["leak", "sinking on"]
+    assert (summary["state"], summary["phase"]) == ("state 99", "phase 77")
+
+
+def test_the_begin_of_a_dive_and_the_approach_are_seen_in_the_samples() -> None:
+    underway = Underway()
+    underway.take([("phase", NOW, 0.0), ("waypoint", NOW, 1.0), ("waypoint_distance_m", NOW, 5000.0)])
+    assert underway.left_surface is None
+    underway.take([("phase", NOW + 100, 1.0), ("phase", NOW + 110, 2.0), ("waypoint_distance_m", NOW + 1000, 4500.0)])
+    assert underway.left_surface == NOW + 100
+    assert underway.approach is not None
+    assert underway.approach.m_s == pytest.approx(0.5)
+    underway.take([("waypoint", NOW + 1001, 2.0), ("waypoint_distance_m", NOW + 1002, 9000.0)])
+    assert underway.approach is None, "another waypoint is another way"
+    underway.take([("phase", NOW + 1010, 0.0)])
+    assert underway.left_surface is None

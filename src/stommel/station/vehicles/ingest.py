@@ -20,7 +20,7 @@ LINK_EVERY = 10.0
 NEAR = 60.0
 """A time that a message tells is believed if it is so near to when it came [s]."""
 UNSET_FOR = 900.0
-"""A simulated vehicle that has not told its clock for so long gets ours [s since its boot, by itself]."""
+"""A simulated vehicle that is heard for so long without telling its clock gets ours [s]."""
 TICK = 2e-6
 """Between two times that the archive, which has whole microseconds, keeps apart [s]."""
 
@@ -48,6 +48,8 @@ class Ingest:
         """UTC of the vehicle at its time 0 since boot."""
         self._last_time: dict[str, float] = {}
         self._early: list[Early] = []
+        self._first_at: float | None = None
+        """When a message came first while the clock was not set."""
         self._link_at = -math.inf
         self._has_come = False
         self.frames: list[FrameRow] = []
@@ -71,7 +73,9 @@ class Ingest:
         if not clock.is_set:
             if data:
                 self._early.append((data, accepted, t))
-            if any(_since_boot(received) > UNSET_FOR for received in accepted):
+            if self._first_at is None and accepted:
+                self._first_at = t
+            if self._first_at is not None and t - self._first_at > UNSET_FOR:
                 clock.hear(min(max(t, FIRST), LAST), t)  # without a fix it may never know
             if not clock.is_set:
                 return
@@ -189,12 +193,6 @@ class Ingest:
             t = at
         self._last_time[name] = t
         return t
-
-
-def _since_boot(received: Received) -> float:
-    """Time of the vehicle since its boot that a message tells [s]; 0 if it tells none."""
-    told = received.values.get("time_boot_ms", 0)
-    return 1e-3 * told if isinstance(told, int) else 0.0
 
 
 def _row(frame: RawFrame, direction: str, t: float) -> FrameRow:

@@ -109,9 +109,9 @@ def heard(address: str, seconds: float = 240.0) -> None:
     pytest.fail(f"the simulated glider told nothing within {seconds} s")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def browser() -> "Iterator[object]":
-    """Debian's Chromium without a window."""
+    """Debian's Chromium without a window; while it is there, no other event loop runs in this thread."""
     sync_api = pytest.importorskip("playwright.sync_api")
     if not CHROMIUM.exists():
         pytest.skip(f"no Chromium at {CHROMIUM}")

@@ -41,6 +41,11 @@ def sign_in(page: Any, address: str, name: str, view: str) -> None:
     page.get_by_role("button", name="Abort", exact=True).wait_for()
 
 
+def kind(page: Any, name: str) -> Any:
+    """The button that opens the form of a command."""
+    return page.locator(f"[data-kind='{name}'] > button")
+
+
 def told(address: str, path: str, token: str | None = None) -> Any:
     """What the station answers, without the page."""
     request = urllib.request.Request(f"{address}/api{path}")

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from stommel.link.commands.table import command_named
-from tests.page.manned import manned, sign_in, told
+from tests.page.manned import kind, manned, sign_in, told
 
 __all__ = ["manned"]
 
@@ -16,7 +16,7 @@ __all__ = ["manned"]
 def view(page: Any, station: str) -> Any:
     """The commands of the simulated glider."""
     page.goto(f"{station}/#/vehicle/1/commands")
-    page.get_by_role("button", name="radio-time").wait_for()
+    kind(page, "radio-time").wait_for()
     return page
 
 
@@ -28,7 +28,7 @@ def rows(station: str) -> list[dict[str, Any]]:
 
 def test_a_command_is_given_and_seen_answered_by_the_vehicle(view: Any, station: str, screenshot: Any) -> None:
     """Oracle: the vehicle's own parameter has the new value afterwards."""
-    view.get_by_role("button", name="radio-time").click()
+    kind(view, "radio-time").click()
     view.get_by_label("time, s").fill("321")
     view.get_by_role("button", name="Give “radio-time”").click()
     done = view.locator("tr[data-command][data-state='done']", has_text="time 321 s")
@@ -45,7 +45,7 @@ def test_a_value_out_of_range_is_told_beside_its_field_and_not_given(view: Any, 
     """Oracle: range and unit stand in the table of commands."""
     before = len(rows(station))
     parameter = command_named("radio-time").parameters[0]
-    view.get_by_role("button", name="radio-time").click()
+    kind(view, "radio-time").click()
     for typed in ("", "59", "86401", "ten"):
         view.get_by_label("time, s").fill(typed)
         view.get_by_role("button", name="Give “radio-time”").click()
@@ -58,7 +58,7 @@ def test_a_value_out_of_range_is_told_beside_its_field_and_not_given(view: Any, 
 
 def test_a_dangerous_command_asks_first_with_the_sentence_of_the_table(view: Any, station: str) -> None:
     before = len(rows(station))
-    view.get_by_role("button", name="restart").click()
+    kind(view, "restart").click()
     view.get_by_role("button", name="Give “restart”").click()
     dialog = view.get_by_role("dialog")
     assert command_named("restart").confirm in dialog.inner_text()
@@ -80,7 +80,7 @@ def test_a_waiting_command_counts_down_by_the_clock_of_the_vehicle_and_is_taken_
     )
     page = context.new_page()
     page.goto(f"{station}/#/vehicle/1/commands")
-    page.get_by_role("button", name="hold", exact=False).first.click()
+    kind(page, "hold").click()
     page.get_by_label("When").select_option("at_next_surfacing")
     page.get_by_label("Expires after").select_option("604800")
     page.get_by_role("button", name="Give “hold”").click()
@@ -100,7 +100,7 @@ def test_a_waiting_command_counts_down_by_the_clock_of_the_vehicle_and_is_taken_
 def test_what_was_typed_outlives_a_lost_station_and_a_reload(view: Any, station: str) -> None:
     """Issue: nothing is lost; and the person is told that nobody knows whether it was given."""
     before = len(rows(station))
-    view.get_by_role("button", name="radio-time").click()
+    kind(view, "radio-time").click()
     view.get_by_label("time, s").fill("222")
     view.route("**/api/vehicles/1/commands", lambda route: route.abort())
     view.get_by_role("button", name="Give “radio-time”").click()
@@ -123,12 +123,12 @@ def test_two_pilots_one_holds_command_the_other_takes_over_with_a_reason(
     ling, max_ = first.new_page(), second.new_page()
     sign_in(ling, manned, "ling", "vehicle/1/commands")
     sign_in(max_, manned, "max", "vehicle/1/commands")
-    ling.get_by_role("button", name="check", exact=False).first.click()
+    kind(ling, "check").click()
     ling.get_by_role("button", name="Give “check”").click()
     ling.locator("li[data-command]", has_text="check").wait_for()
     ling.get_by_text("You hold command").first.wait_for()
     max_.locator("[data-holder='ling']").wait_for()
-    max_.get_by_role("button", name="hold", exact=False).first.click()
+    kind(max_, "hold").click()
     max_.get_by_text("ling holds command. Take over first").wait_for()
     assert max_.get_by_role("button", name="Give “hold”").is_disabled()
     max_.get_by_role("button", name="Take over…").click()
@@ -142,7 +142,7 @@ def test_two_pilots_one_holds_command_the_other_takes_over_with_a_reason(
     assert "change of watch" in held.inner_text()
     until = time.monotonic() + 10.0
     while not ling.get_by_text("max holds command. Take over first").count() and time.monotonic() < until:
-        ling.get_by_role("button", name="hold", exact=False).first.click()
+        kind(ling, "hold").click()
         ling.wait_for_timeout(200)
     assert ling.get_by_text("max holds command. Take over first").count()
     max_.screenshot(path="build/screenshots/commands-taken-over.png")
@@ -152,6 +152,6 @@ def test_two_pilots_one_holds_command_the_other_takes_over_with_a_reason(
 
 def test_a_viewer_sees_and_cannot_give(page: Any, manned: str) -> None:
     sign_in(page, manned, "vera", "vehicle/1/commands")
-    page.get_by_role("button", name="hold", exact=False).first.click()
+    kind(page, "hold").click()
     page.get_by_text("You may look, not command").wait_for()
     assert page.get_by_role("button", name="Give “hold”").is_disabled()

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from tests.page.manned import PASSWORD, manned, sign_in, status
+from tests.page.manned import PASSWORD, kind, manned, sign_in, status
 
 __all__ = ["manned"]
 
@@ -74,7 +74,7 @@ def test_a_token_is_shown_once_works_and_is_refused_once_removed(page: Any, mann
 def test_an_expired_session_asks_to_sign_in_and_what_was_typed_is_there_again(page: Any, manned: str) -> None:
     """Issue: nothing is lost."""
     sign_in(page, manned, "max", "vehicle/1/commands")
-    page.get_by_role("button", name="radio-time").click()
+    kind(page, "radio-time").click()
     page.get_by_label("time, s").fill("777")
     page.context.clear_cookies()
     page.reload()

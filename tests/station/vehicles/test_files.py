@@ -119,7 +119,7 @@ def test_what_is_no_form_and_what_is_not_there_is_told(tmp_path: Path) -> None:
         client.refused("POST", f"/transfers/{id}/resume", 404)
         vehicle.under_water = True
         until(lambda: not found.vehicles[1].status().heard)
-        assert "not heard" in client.refused("GET", "/vehicles/1/listing", 503)["reason"]
+        assert "not heard" in client.refused("GET", "/vehicles/1/listing", 409)["reason"]
 
 
 def test_a_cancelled_transfer_leaves_nothing(tmp_path: Path) -> None:

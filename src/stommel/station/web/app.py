@@ -7,6 +7,7 @@ from fastapi.routing import APIRoute
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Match, Route
+from starlette.types import Scope
 
 from stommel import __version__
 from stommel.station.web import live
@@ -14,7 +15,7 @@ from stommel.station.web.access import PUBLIC, gate, least_role
 from stommel.station.web.built_page import BuiltPage
 from stommel.station.web.errors import add_handlers, detail_of
 from stommel.station.web.exposure import Exposure
-from stommel.station.web.guards.bodies import LARGEST, SoundBodies
+from stommel.station.web.guards.bodies import SoundBodies
 from stommel.station.web.guards.headers import StrictHeaders
 from stommel.station.web.guards.origins import Origins
 from stommel.station.web.guards.trail import Trail
@@ -45,7 +46,6 @@ def create_app(station: Any, exposure: Exposure | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
         redirect_slashes=False,
-        max_body_size=LARGEST,
     )
     app.state.station = station
     app.state.exposure = known
@@ -57,11 +57,16 @@ def create_app(station: Any, exposure: Exposure | None = None) -> FastAPI:
     app.router.routes.append(Route("/{path:path}", _rest(BuiltPage()), methods=None, include_in_schema=False))
     add_handlers(app)
     app.add_middleware(Trail, audit=station.people.audit)
-    app.add_middleware(SoundBodies)
+    app.add_middleware(SoundBodies, largest=_largest_body)
     app.add_middleware(GZipMiddleware, minimum_size=1000, compresslevel=4)
     app.add_middleware(Origins, exposure=known)
     app.add_middleware(StrictHeaders)
     return app
+
+
+def _largest_body(scope: Scope) -> int:
+    """Bytes that the route of a request takes, where it says so itself."""
+    return max((route.max_body_size or 0 for route in api_routes() if route.matches(scope)[0] is Match.FULL), default=0)
 
 
 def api_routes() -> list[APIRoute]:

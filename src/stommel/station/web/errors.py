@@ -42,7 +42,7 @@ STATUS: tuple[tuple[type[StommelError], int], ...] = (
     (HeldError, 409),
     (PeopleError, 422),
     (MissingError, 404),
-    (VehicleError, 503),
+    (VehicleError, 409),
     (TooManyJobsError, 429),
     (UnknownJobError, 404),
     (SimulatorError, 503),

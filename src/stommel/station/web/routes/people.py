@@ -1,6 +1,6 @@
 """People: logging in and out, users, tokens, the audit log, and who holds command of a vehicle."""
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Any
 
 from anyio import CapacityLimiter, to_thread
 from fastapi import APIRouter, Path, Query, Request, Response
@@ -94,64 +94,17 @@ class LoggedIn(BaseModel):
     role: Role
 
 
-class PersonInfo(BaseModel):
-    """Somebody with a name at this station; `added` in seconds since 1970."""
-
-    name: str
-    role: Role
-    added: float
-    disabled: bool
-
-    @classmethod
-    def of(cls, person: Person) -> Self:
-        """As the station knows them."""
-        return cls(**person._asdict())
-
-
-class TokenInfo(BaseModel):
-    """A token without its secret; times in seconds since 1970, null where it never ends or was never used."""
-
-    token: int
-    user: str
-    name: str
-    role: Role
-    made: float
-    expires: float | None
-    last_used: float | None
-
-    @classmethod
-    def of(cls, token: Token) -> Self:
-        """As the station knows it."""
-        return cls(**token._asdict())
-
-
 class TokenMade(BaseModel):
     """A token, with its secret for the only time."""
 
-    token: TokenInfo
+    token: Token
     secret: str
-
-
-class HoldInfo(BaseModel):
-    """Who commands, since when [s since 1970], and from whom it was taken and why."""
-
-    vehicle: int
-    user: str
-    role: Role
-    since: float
-    taken_from: str | None
-    reason: str | None
 
 
 class HolderInfo(BaseModel):
     """Who commands the vehicle; null where nobody does."""
 
-    holder: HoldInfo | None
-
-    @classmethod
-    def of(cls, hold: Hold | None) -> Self:
-        """As the station knows it."""
-        return cls(holder=None if hold is None else HoldInfo(**hold._asdict()))
+    holder: Hold | None
 
 
 class AuditEntry(BaseModel):
@@ -220,24 +173,23 @@ def change_password(change: NewPassword, request: Request, user: Viewer) -> None
 
 
 @router.get("/users")
-def list_users(request: Request, _user: Admin) -> list[PersonInfo]:
+def list_users(request: Request, _user: Admin) -> list[Person]:
     """Everybody with a name at this station."""
-    return [PersonInfo.of(person) for person in _people(request).users.everybody()]
+    return _people(request).users.everybody()
 
 
 @router.post("/users", status_code=201)
-def add_user(new: NewUser, request: Request, user: Admin) -> PersonInfo:
+def add_user(new: NewUser, request: Request, user: Admin) -> Person:
     """Add somebody."""
     _in_person(user)
-    return PersonInfo.of(_people(request).users.add(new.name, new.password, new.role))
+    return _people(request).users.add(new.name, new.password, new.role)
 
 
 @router.patch("/users/{name}")
-def change_user(name: NameInPath, change: UserChange, request: Request, user: Admin) -> PersonInfo:
+def change_user(name: NameInPath, change: UserChange, request: Request, user: Admin) -> Person:
     """Change somebody's role, keep them out, let them in again, or set a new password."""
     _in_person(user)
-    person = _people(request).change(name, role=change.role, disabled=change.disabled, password=change.password)
-    return PersonInfo.of(person)
+    return _people(request).change(name, role=change.role, disabled=change.disabled, password=change.password)
 
 
 @router.delete("/users/{name}", status_code=204)
@@ -248,10 +200,9 @@ def remove_user(name: NameInPath, request: Request, user: Admin) -> None:
 
 
 @router.get("/tokens")
-def list_tokens(request: Request, user: Viewer) -> list[TokenInfo]:
+def list_tokens(request: Request, user: Viewer) -> list[Token]:
     """One's own tokens; an admin sees everybody's."""
-    tokens = _people(request).tokens.of(None if user.role is Role.ADMIN else user.name)
-    return [TokenInfo.of(token) for token in tokens]
+    return _people(request).tokens.of(None if user.role is Role.ADMIN else user.name)
 
 
 @router.post("/tokens", status_code=201)
@@ -262,7 +213,7 @@ def add_token(new: NewToken, request: Request, user: Viewer) -> TokenMade:
     if owner != user.name and user.role is not Role.ADMIN:
         raise refusal(403, "only an admin makes tokens for others", key="user", value=owner, allowed=user.name)
     token, secret = _people(request).tokens.add(owner, new.name, new.role, new.days)
-    return TokenMade(token=TokenInfo.of(token), secret=secret)
+    return TokenMade(token=token, secret=secret)
 
 
 @router.delete("/tokens/{token}", status_code=204)
@@ -289,7 +240,7 @@ def read_audit(
 def read_holder(vehicle: VehicleNumber, request: Request, _user: Viewer) -> HolderInfo:
     """Who holds command of the vehicle."""
     _there(request, vehicle)
-    return HolderInfo.of(_people(request).holders.of(vehicle))
+    return HolderInfo(holder=_people(request).holders.of(vehicle))
 
 
 @router.post("/vehicles/{vehicle}/holder")
@@ -299,7 +250,7 @@ def take_command(vehicle: VehicleNumber, take: Take, request: Request, user: Pil
     if take.by_force and not take.reason.strip():
         raise refusal(422, "say why you take command", key="reason", allowed=f"1 to {LONGEST_REASON} characters")
     reason = take.reason if take.by_force else None
-    return HolderInfo.of(_people(request).holders.take(vehicle, user, reason))
+    return HolderInfo(holder=_people(request).holders.take(vehicle, user, reason))
 
 
 @router.delete("/vehicles/{vehicle}/holder", status_code=204)

@@ -42,6 +42,8 @@ const AXIS_WIDTH = 58;
 const AXIS_HEIGHT = 26;
 const HEADROOM = 0.06;
 const LIMIT_SHADE = 0.09;
+const WIDTH = 1.5;
+const MANY_POINTS = 600;
 
 /** The colours of the page as they are now. */
 export function readInk(element: HTMLElement): Ink {
@@ -108,7 +110,7 @@ function options(settings: ChartSettings): uPlot.Options {
     series: [{}, ...Array.from({ length: settings.traces }, (_, index) => series(settings, index))],
     axes: [timeAxis(settings), valueAxis(settings)],
     hooks: {
-      drawClear: [(plot) => drawLimits(plot, settings)],
+      drawClear: [setWidths, (plot) => drawLimits(plot, settings)],
       setSelect: [(plot) => takeSelection(plot, settings)],
       setCursor: [(plot) => takeCursor(plot, settings)],
     },
@@ -119,7 +121,7 @@ function series(settings: ChartSettings, index: number): uPlot.Series {
   const paths = settings.stepped[index] ? uPlot.paths.stepped?.({ align: 1 }) : undefined;
   return {
     stroke: () => settings.ink().traces[index % 8] ?? 'gray',
-    width: 1.5,
+    width: WIDTH,
     spanGaps: false,
     ...(settings.dashed[index] ? { dash: [6, 4] } : {}),
     points: { show: (_plot, _series, first, last) => last - first < 40, size: 4 },
@@ -175,6 +177,13 @@ function takeSelection(plot: uPlot, settings: ChartSettings): void {
 function takeCursor(plot: uPlot, settings: ChartSettings): void {
   const left = plot.cursor.left;
   settings.onCursor(left === undefined || left < 0 ? null : plot.posToVal(left, 'x'));
+}
+
+/** Many points are drawn in hairlines, which are quick: a window that moves is drawn anew in each frame. */
+function setWidths(plot: uPlot): void {
+  const [first, last] = plot.series[0]?.idxs ?? [0, 0];
+  const width = last - first > MANY_POINTS ? 1 / uPlot.pxRatio : WIDTH;
+  for (const one of plot.series.slice(1)) one.width = width;
 }
 
 /** What lies beyond a limit is shaded, the limit itself is a line. */

@@ -20,7 +20,7 @@ LINK_EVERY = 10.0
 NEAR = 60.0
 """A time that a message tells is believed if it is so near to when it came [s]."""
 UNSET_FOR = 900.0
-"""A simulated vehicle that has not told its clock for so long gets ours [s since its boot, by itself]."""
+"""A simulated vehicle that has not told its clock for so long gets ours [s by its time since boot]."""
 MOST_PERIODS, _WEIGHT = 10.0, 0.1
 """Longer intervals are silences, not intervals; weight of the last in the mean."""
 TICK = 2e-6
@@ -52,6 +52,8 @@ class Ingest:
         self._intervals: dict[str, tuple[float, float]] = {}
         """When each message came last, and its mean interval [s]."""
         self._early: list[Early] = []
+        self._first_boot = math.inf
+        """Its time since boot when it was heard first, while its clock was not set [s]."""
         self._link_at = -math.inf
         self._has_come = False
         self.frames: list[FrameRow] = []
@@ -75,7 +77,7 @@ class Ingest:
         if not clock.is_set:
             if data:
                 self._early.append((data, accepted, t))
-            if any(_since_boot(received) > UNSET_FOR for received in accepted):
+            if self._is_long_unset(accepted):
                 clock.hear(min(max(t, FIRST), LAST), t)  # without a fix it may never know
             if not clock.is_set:
                 return
@@ -84,6 +86,12 @@ class Ingest:
         if not self._early or self._early[-1][1] is not accepted:
             self._take(data, accepted, t)
         self._early = []
+
+    def _is_long_unset(self, accepted: Sequence[Received]) -> bool:
+        """Whether the vehicle was heard for long by its own time, of which a slow simulation has less than we."""
+        told = [boot for received in accepted if (boot := _since_boot(received)) > 0.0]
+        self._first_boot = min([self._first_boot, *told])
+        return any(boot - self._first_boot > UNSET_FOR for boot in told)
 
     def say(self, data: bytes, t: float) -> None:
         """Take bytes that went."""

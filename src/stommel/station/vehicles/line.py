@@ -104,10 +104,14 @@ class VehicleLine:
         """Begin to listen."""
         self._thread.start()
 
-    def stop(self, within: float = 5.0) -> None:
-        """End, with all that came stored if the archive takes it."""
+    def end_soon(self) -> None:
+        """Begin to end; `stop` waits for it."""
         self._ends.set()
         self._wake.set()
+
+    def stop(self, within: float = 5.0) -> None:
+        """End, with all that came stored if the archive takes it."""
+        self.end_soon()
         if self._thread.ident is not None:
             self._thread.join(within)
         self._held.close()

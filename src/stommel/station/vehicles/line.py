@@ -11,7 +11,7 @@ from typing import Protocol, TypeVar
 
 from stommel.link.shore.shore_end import ShoreEnd
 from stommel.link.transports.opening import open_transport
-from stommel.link.transports.transport import Transport, TransportError
+from stommel.link.transports.transport import READ_AT_ONCE, Transport, TransportError
 from stommel.station.archive import Archive, ArchiveError, ArchiveRequestError, Batch
 from stommel.station.settings import VehicleSettings
 from stommel.station.vehicles.abort_only import AbortOnly
@@ -32,6 +32,8 @@ STATUS_EVERY = 0.25
 AHEAD = 65_536
 """Bytes that may wait in the transport."""
 MOST_REQUESTS = 1000
+MOST_READS = 4
+"""Of one look: a disk that is slow for a moment shall not make a line slow."""
 
 T = TypeVar("T")
 
@@ -102,10 +104,14 @@ class VehicleLine:
         """Begin to listen."""
         self._thread.start()
 
-    def stop(self, within: float = 5.0) -> None:
-        """End, with all that came stored if the archive takes it."""
+    def end_soon(self) -> None:
+        """Begin to end; `stop` waits for it."""
         self._ends.set()
         self._wake.set()
+
+    def stop(self, within: float = 5.0) -> None:
+        """End, with all that came stored if the archive takes it."""
+        self.end_soon()
         if self._thread.ident is not None:
             self._thread.join(within)
         self._held.close()
@@ -160,7 +166,7 @@ class VehicleLine:
     def _look(self) -> None:
         real, t = time.monotonic(), self.clock.link_now()
         transport = self._opened(real)
-        data = b"" if transport is None or self.ingest.is_full else transport.read(real)
+        data = b"" if transport is None or self.ingest.is_full else _read(transport, real)
         if data:
             self._lively = real + GOES_ON
         self.ingest.hear(data, self.end.session.take(data, t), t)
@@ -275,3 +281,14 @@ class VehicleLine:
             self._transport.close()
         while not self._requests.empty():
             self._requests.get_nowait()[1].cancel()
+
+
+def _read(transport: Transport, real: float) -> bytes:
+    """What has come, as far as one look takes it."""
+    found = transport.read(real)
+    if len(found) < READ_AT_ONCE:
+        return found
+    parts = [found]
+    while len(parts) < MOST_READS and len(parts[-1]) == READ_AT_ONCE:
+        parts.append(transport.read(real))
+    return b"".join(parts)

@@ -126,7 +126,7 @@ def page(browser, request: pytest.FixtureRequest):
     """A page whose browser has seen the tour; what it throws fails the test. Options of the context by parameter."""
     options = getattr(request, "param", {})
     context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce", **options})
-    context.add_init_script("localStorage.setItem('stommel.tour', 'done')")
+    context.add_init_script("localStorage.setItem('stommel-tour', 'done')")
     tab = context.new_page()
     tab.set_default_timeout(20_000)
     thrown: list[str] = []

@@ -12,8 +12,6 @@ WORDS_ERRORS = {
     "files/sentences.py": "the one place",
     "ocean/analytic/everywhere.py": "numbers of an ocean, which come from no file of their own",
     "dynamics/state_files.py": "a list in JSON",
-    "station/planner/problems.py": "fields of a form, each told beside it",
-    "station/web/routes/plans.py": "the same, in a request",
 }
 OPENS = {
     "files/opening.py": "the one place",

@@ -98,6 +98,20 @@ CASES: dict[str, dict[str, Case]] = {
         "--output": ("pool_trial", "--output o.toml", {"written": ["o.toml"]}),
         "--expires-hours": ("pool_trial", "--expires-hours 5.5", {"expires_hours": 5.5}),
     },
+    "plan check": {"--output": ("plan.json", "--output checked.toml", {"written": ["checked.toml"]})},
+    "plan preview": {"--output": ("plan.json", "--output flown.json", {"written": ["flown.json"]})},
+    "plan open": {
+        "--vehicle": ("orders.toml --start 18,115", "--vehicle zju", {"plan.vehicle": "zju"}),
+        "--start": (
+            "orders.toml --vehicle zju", "--start 18.5,115.25",
+            {"plan.start.latitude_deg": 18.5, "plan.start.longitude_deg": 115.25},
+        ),
+        "--ocean": (
+            "orders.toml --vehicle zju --start 18,115", "--ocean uniform",
+            {"plan.water.ocean": "uniform", "plan.dives.ballast_ml": CHANGED},
+        ),
+        "--output": ("orders.toml --vehicle zju --start 18,115", "--output plan2.json", {"written": ["plan2.json"]}),
+    },
     "modes": {
         "--speed": ("zju", "--speed 0.31", {"flight.speed_m_s": 0.31, "longitudinal.0.real": CHANGED}),
         "--pitch": ("zju", "--pitch -22", {"flight.pitch_deg": -22.0, "longitudinal.0.real": CHANGED}),
@@ -396,7 +410,7 @@ BASES_THAT_ARE_REFUSED = {
     ("vehicle config", "--output"), ("vehicle config", "--force"), ("vehicle calibrate-compass", "--force"),
     ("bench generate", "--output"), ("bench analyse", "--map"), ("bench fit", "--map"),
     ("can dump", "--interface"), ("can send", "--interface"),
-    ("link key new", "--force"),
+    ("link key new", "--force"), ("plan open", "--vehicle"), ("plan open", "--start"),
 }  # fmt: skip
 """Without the option there is no answer at all."""
 
@@ -425,6 +439,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (path / "short.toml").write_text(MISSION)
     (path / "mine.toml").write_text(MATERIAL)
     (path / "cast.csv").write_text(CAST)
+    (path / "plan.json").write_text(PLAN)
+    assert run_here(path, "plan", "check", "plan.json", "--output", "orders.toml").status == 0
     examples = Path(__file__).parents[2] / "src/stommel/bench/examples"
     text = (examples / "fan2013-table5.toml").read_text()
     (path / "table.csv").write_text((examples / "fan2013-table5.csv").read_text())
@@ -462,6 +478,11 @@ pitch_deg = 35
 ballast_ml = 200
 [ocean]
 name = "uniform"
+"""
+
+PLAN = """{"name": "a hop", "vehicle": "zju", "start_time": "2026-07-01T00:00:00Z", "duration_days": 0.1,
+"start": {"latitude_deg": 18.0, "longitude_deg": 115.0}, "waypoints": [{"latitude_deg": 18.5, "longitude_deg": 115.0}],
+"dives": {"depth_m": 50, "pitch_deg": 35, "ballast_ml": 100}, "water": {"ocean": "south_china_sea"}}
 """
 
 MATERIAL = """

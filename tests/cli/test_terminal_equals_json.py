@@ -781,6 +781,7 @@ ELSEWHERE = {
     "link key new": "tests/link/signing/test_key_command.py, with link key show and link key check",
     "link key show": "as link key new",
     "link key check": "as link key new",
+    **{f"plan {verb}": "tests/cli/test_plan.py" for verb in ("check", "preview", "open")},
     "can dump": "tests/messages/test_can_command.py, with can decode and can send",
     "can decode": "as can dump",
     "can send": "as can dump",

@@ -31,6 +31,10 @@ kind = "monte_carlo"
 runs = 2
 parameters = [{ key = "mission.dives.pitch_deg", distribution = "uniform", from = 30, to = 40 }]
 """
+PLAN = """{"name": "a hop", "vehicle": "zju", "start_time": "2026-07-01T00:00:00Z", "duration_days": 0.1,
+"start": {"latitude_deg": 18.0, "longitude_deg": 115.0}, "waypoints": [{"latitude_deg": 18.5, "longitude_deg": 115.0}],
+"dives": {"depth_m": 50, "pitch_deg": 35, "ballast_ml": 100}, "water": {"ocean": "south_china_sea"}}
+"""
 LOCUS = ("root-locus", "zju", "--over", "wing_position", "--from", "0", "--to", "0.2", "--points", "2")
 PICTURES = ("trial", "sawtooth", "map", "energy", "actuators", "ctd")
 
@@ -49,6 +53,12 @@ WRITERS: dict[str, tuple[tuple[str, ...], list[str]]] = {
     "budget": (("budget", "zju", "--apply", "mine.toml", "--plot", "b.PNG"), ["mine.toml", "b.PNG"]),
     "flight-table": (("flight-table", "zju", "--output", "f.toml"), ["f.toml"]),
     "orders": (("orders", "mission.toml", "--output", "new/o.toml"), ["new/o.toml"]),
+    "plan check": (("plan", "check", "plan.json", "--output", "new/o.toml"), ["new/o.toml"]),
+    "plan preview": (("plan", "preview", "plan.json", "--output", "new/p.json"), ["new/p.json"]),
+    "plan open": (
+        ("plan", "open", "orders.toml", "--vehicle", "zju", "--start", "18,115", "--output", "new/p.json"),
+        ["new/p.json"],
+    ),
     "simulate": (
         ("simulate", "mission.toml", "--output", "m.nc", "--track", "t.KML", "--plots", "all"),
         ["m.nc", "t.KML", *both("all", *PICTURES), "all/mission.html"],
@@ -113,6 +123,9 @@ SAVE_AS = {
     "bench generate": (".csv",),
     "flight-table": (".toml",),
     "orders": (".toml",),
+    "plan check": (".toml",),
+    "plan preview": (".json",),
+    "plan open": (".json",),
 }
 """What the names of written files end with, by option; of --output by verb."""
 
@@ -149,6 +162,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mission.toml").write_text(MISSION)
     (tmp_path / "study.toml").write_text(STUDY)
+    (tmp_path / "plan.json").write_text(PLAN)
     (tmp_path / "samples.csv").write_text(SAMPLES)
     (tmp_path / "file").write_text("in the way")
     (tmp_path / "folder").mkdir()
@@ -180,8 +194,9 @@ def ask(folder: Path, capsys: pytest.CaptureFixture[str]) -> Ask:
 
 @pytest.fixture
 def logged(folder: Path, ask: Ask) -> None:
-    """Lay a log beside, for the verbs that read one."""
+    """Lay a log and orders beside, for the verbs that read them."""
     ask("bench", "generate", "zju", "--output", "bench.csv", "--period-s", "1")
+    ask("plan", "check", "plan.json", "--output", "orders.toml")
 
 
 @pytest.mark.parametrize("verb", WRITERS)
@@ -217,9 +232,12 @@ def refusal(verb: str, option: str, text: str) -> str:
     """What a verb answers to an output, asked about a vehicle, mission or log that does not exist."""
     # the output is looked at first: nothing else would be found wrong before the work begins
     place = [text] if option in METAVARS else [option, text]
-    required = {"root-locus": list(LOCUS[2:]), "link files get": ["log/1.log"] if option == "COPY" else []}.get(
-        verb, []
-    )
+    needed = {
+        "root-locus": list(LOCUS[2:]),
+        "link files get": ["log/1.log"] if option == "COPY" else [],
+        "plan open": ["--vehicle", "zju", "--start", "18,115"],
+    }
+    required = needed.get(verb, [])
     subject = [] if option in METAVARS else ["there-is-no-such-thing"]
     with pytest.raises(OutputError) as caught:
         app([*verb.split(), *subject, *required, *place], standalone_mode=False)

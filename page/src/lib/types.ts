@@ -128,7 +128,8 @@ export interface StateMachine {
 
 export interface AlarmRow {
   id: number;
-  vehicle: number;
+  /** Null: of the station itself. */
+  vehicle: number | null;
   key: string;
   words: string;
   severity: string;

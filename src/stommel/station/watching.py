@@ -58,8 +58,8 @@ def contact_of(summary: Mapping[str, Any]) -> Contact:
 
 
 def open_alarms(alarms: StationAlarms, vehicle: int) -> list[dict[str, str]]:
-    """Open alarms of a vehicle as its summary tells them, the worst first."""
-    found = sorted(alarms.open_of(vehicle), key=lambda alarm: -RANK[alarm.severity])
+    """Open alarms of a vehicle, and of the station itself, as the summary tells them, the worst first."""
+    found = sorted([*alarms.open_of(vehicle), *alarms.open_of(None)], key=lambda alarm: -RANK[alarm.severity])
     return [{"key": alarm.key, "words": alarm.words, "severity": alarm.severity} for alarm in found]
 
 

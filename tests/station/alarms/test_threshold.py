@@ -81,6 +81,18 @@ def test_in_any_order_an_excess_is_told_once(samples: list[tuple[float, float]])
         assert len(told) == 2
 
 
+def test_what_comes_late_from_before_the_last_end_is_not_told_again() -> None:
+    """A backlog between live samples: its first excess is told, and none of the others."""
+    threshold = Threshold(LIMIT, above=True)
+    threshold.take(1000.0, 50.0)
+    told = [
+        told
+        for n in range(1, 6)
+        for told in (*threshold.take(100.0 + n, 120.0), *threshold.take(1000.0 + n, 50.0))
+    ]  # fmt: skip
+    assert told == [Transition(True, 101.0, 120.0), Transition(False, 1000.0, 50.0)]
+
+
 @given(st.lists(st.tuples(st.floats(0.0, 100.0), values), max_size=40))
 def test_raised_and_cleared_always_take_turns(samples: list[tuple[float, float]]) -> None:
     """Samples in any order: an alarm never begins twice without an end, and no excess is left untold."""

@@ -52,7 +52,7 @@ def check_cells(archive: Archive, vehicle: int, given: list[list[Sample]]) -> No
 
 
 @given(batches)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 def test_cells_follow_their_samples(shared: Archive, given: list[list[Sample]]) -> None:
     vehicle = next(_vehicles)
     for batch in given:

@@ -15,7 +15,7 @@ import pytest
 from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import create_engine, event, inspect, make_url, text
+from sqlalchemy import Engine, create_engine, event, inspect, make_url, text
 
 from stommel.station.archive import (
     Archive,
@@ -47,6 +47,13 @@ def test_the_migrations_make_the_tables_of_the_schema(archive: Archive) -> None:
         assert set(inspect(connection).get_table_names()) == {*metadata.tables, "alembic_version"}
 
 
+def test_samples_and_cells_lie_in_the_order_of_their_key(sqlite_archive: Archive) -> None:
+    """Alembic does not compare this, and long ranges are slow without it."""
+    query = text("SELECT name FROM sqlite_master WHERE type = 'table' AND sql LIKE '%WITHOUT ROWID%'")
+    with sqlite_archive.reading() as connection:
+        assert set(connection.execute(query).scalars()) == {"samples", "minutes", "ten_minutes", "ctd"}
+
+
 def test_the_version_is_the_last_of_the_migrations() -> None:
     assert ScriptDirectory(str(Path(migrating.__file__).with_name("migrations"))).get_heads() == [migrating.CURRENT]
 
@@ -56,6 +63,39 @@ def test_what_was_stored_is_there_after_opening_again(database: str) -> None:
         archive.store(1, SAMPLES)
     with Archive.open(database) as archive:
         assert archive.latest(1) == {"depth_m": (T, 1.0)}
+
+
+def test_tables_that_are_made_halfway_are_not_there(database: str) -> None:
+    """As after a loss of power in the middle of a migration."""
+
+    def fail(_connection: object, _cursor: object, statement: str, *_: object) -> None:
+        if "CREATE TABLE tokens" in statement:
+            raise ZeroDivisionError
+
+    event.listen(Engine, "before_cursor_execute", fail)
+    try:
+        with pytest.raises(ZeroDivisionError):
+            Archive.open(database)
+    finally:
+        event.remove(Engine, "before_cursor_execute", fail)
+    engine = create_engine(database)
+    with engine.connect() as connection:
+        assert inspect(connection).get_table_names() == []
+    engine.dispose()
+    with Archive.open(database) as archive:
+        archive.store(1, SAMPLES)
+
+
+def test_a_server_that_was_started_again_is_found_again(opened: Callable[..., Archive], postgres_server: str) -> None:
+    archive = opened(postgres_server)
+    archive.store(1, SAMPLES)
+    other = create_engine(postgres_server)
+    with other.connect() as connection:
+        others = "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE pid <> pg_backend_pid()"
+        connection.execute(text(f"{others} AND datname = current_database()"))
+    other.dispose()
+    archive.store(1, Batch(samples=[("depth_m", T + 1, 2.0)]))
+    assert archive.latest(1) == {"depth_m": (T + 1, 2.0)}
 
 
 def test_an_archive_of_a_newer_version_is_refused_and_left(database: str) -> None:

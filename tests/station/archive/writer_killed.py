@@ -39,15 +39,18 @@ class LostError(AssertionError):
     """Something that was reported as stored is not there, or half of something is."""
 
 
-def killed_and_looked_at(url: str, next_number: int, delay: float) -> int:
-    """Let a process write for a while, kill it, and look at the archive; the number of the next batch."""
+def killed_and_looked_at(url: str, next_number: int, delay: float, *, stored: int = 0) -> int:
+    """Let a process write for a while, kill it, and look at the archive; the number of the next batch.
+
+    The while begins when its imports are over, or when it has reported so many batches as stored.
+    """
     code = [sys.executable, "-c", WRITER, url, str(next_number)]
     with subprocess.Popen(code, stdout=subprocess.PIPE, text=True) as writer:
         assert writer.stdout is not None
-        writer.stdout.readline()  # only then are its imports over
+        told = [writer.stdout.readline() for _ in range(1 + stored)][1:]
         time.sleep(delay)
         writer.kill()
-        told = writer.stdout.read().splitlines()
+        told += writer.stdout.read().splitlines()
     last_told = int(told[-1]) if told else next_number - 1
     return looked_at(url, last_told)
 
@@ -75,7 +78,7 @@ def run(url: str, kills: int, seed: int) -> int:
     chance = random.Random(seed)
     number = 0
     for _ in range(kills):
-        number = killed_and_looked_at(url, number, chance.uniform(0.0, 0.5))
+        number = killed_and_looked_at(url, number, chance.uniform(0.0, 0.3), stored=chance.choice((0, 1, 3)))
     found = soundness_of(url)
     if found.problems:
         raise LostError("; ".join(found.problems))

@@ -135,7 +135,7 @@ def test_an_image_is_what_its_bytes_say() -> None:
         (b"", "no PNG or JPEG"),
         (b"<svg xmlns='http://www.w3.org/2000/svg'><script>alert(1)</script></svg>", "no PNG or JPEG"),
         (picture("GIF"), "no PNG or JPEG"),
-        (picture("PNG")[:60], "damaged"),
+        (picture("PNG", noisy=True)[:-2000], "damaged"),
         (picture("JPEG", noisy=True)[:-2000], "damaged"),
         (picture("PNG", (MOST_PIXELS // 100 + 1, 100)), "pixels; make it smaller"),
         (b"\x89PNG\r\n\x1a\n" + bytes(9 << 20), "MB; make it smaller"),
@@ -187,3 +187,10 @@ def test_there_is_an_end_to_layers(client: Client, monkeypatch: pytest.MonkeyPat
     body = {"name": "Wrecks", "geojson": COLLECTION}
     client.post("/layers", body)
     assert "remove one first" in client.refused("POST", "/layers", 422, json=body)["reason"]
+
+
+def test_bounds_say_which_side_is_wrong(client: Client) -> None:
+    told = client.refused(
+        "POST", "/layers/image", 422, params={"name": "Chart", **BOUNDS, "west": 124.0}, content=picture("PNG")
+    )
+    assert (told["reason"], told["allowed"]) == ("west = 124: must be less than east = 124", "less than 124 deg")

@@ -25,6 +25,8 @@ const NEWEST_ARROWS = 60;
 export class MapContent {
   track = $state.raw<Place[]>([]);
   waypoints = $state.raw<MapWaypoint[]>([]);
+  /** From waypoint to waypoint, once around. */
+  route = $state.raw<Place[]>([]);
   fence = $state.raw<Place[]>([]);
   arrows = $state.raw<MapArrow[]>([]);
   readonly vehicle: number;
@@ -72,7 +74,9 @@ export class MapContent {
   private async loadMission(): Promise<void> {
     const mission = await api.get<MissionAboard | null>(`/vehicles/${this.vehicle}/mission`).catch(() => undefined);
     if (mission === undefined) return;
-    this.waypoints = Array.isArray(mission?.waypoints) ? mission.waypoints : [];
+    this.waypoints = together(Array.isArray(mission?.waypoints) ? mission.waypoints : []);
+    const repeats = this.waypoints.some((one) => (one.numbers?.length ?? 0) > 1);
+    this.route = repeats && this.waypoints[0] ? [...this.waypoints, this.waypoints[0]] : this.waypoints;
     this.fence = Array.isArray(mission?.fence) ? mission.fence : [];
   }
 
@@ -82,6 +86,18 @@ export class MapContent {
     const newest = [...rows].sort((a, b) => a.dive - b.dive).slice(-NEWEST_ARROWS);
     this.arrows = newest.flatMap((row, index) => arrow(row, index === newest.length - 1));
   }
+}
+
+/** Waypoints at one place become one, with all its numbers. */
+export function together(waypoints: readonly MapWaypoint[]): MapWaypoint[] {
+  const found = new Map<string, MapWaypoint & { numbers: number[] }>();
+  waypoints.forEach((waypoint, index) => {
+    const key = `${waypoint.latitude.toFixed(5)} ${waypoint.longitude.toFixed(5)}`;
+    const known = found.get(key);
+    if (known) known.numbers.push(index + 1);
+    else found.set(key, { ...waypoint, label: String(index + 1), numbers: [index + 1] });
+  });
+  return [...found.values()];
 }
 
 function arrow(row: DiveRow, strong: boolean): MapArrow[] {

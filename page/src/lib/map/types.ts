@@ -24,6 +24,8 @@ export interface MapTrack {
 export interface MapWaypoint extends Place {
   radius_m?: number | null;
   label?: string;
+  /** Its numbers in the mission, from 1: a mission that goes in rounds passes it more than once. */
+  numbers?: readonly number[];
   /** The one that is aimed at now. */
   active?: boolean;
 }

@@ -7,12 +7,14 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption
-from stommel.cli.station.database import DatabaseOption
+from stommel.cli.station.options import DatabaseOption, FolderOption, SettingsOption, database_url
 
 
 def backup(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The copy; what stood there is replaced.")],
-    database: DatabaseOption,
+    database: DatabaseOption = None,
+    settings: SettingsOption = None,
+    folder: FolderOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Copy the archive as it is at one moment into a file, and see that the copy is sound.
@@ -21,6 +23,6 @@ def backup(
     """
     from stommel.station.archive.backup import back_up
 
-    size = back_up(database, file)
-    answer: dict[str, Any] = {"archive": database, "size_bytes": size}
+    size = back_up(database_url(settings, database, folder), file)
+    answer: dict[str, Any] = {"size_bytes": size}
     finish(answer, [file], as_json, lambda _: typer.echo(f"{size / 1e6:.1f} MB, found sound"))

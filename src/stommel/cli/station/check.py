@@ -7,26 +7,36 @@ import typer
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption
 from stommel.cli.output import show_values
-from stommel.cli.station.database import DatabaseOption
+from stommel.cli.station.options import DatabaseOption, FolderOption, SettingsOption, database_url
 
 if TYPE_CHECKING:
     from stommel.station.archive.soundness import Soundness
 
 
-def check(database: DatabaseOption, as_json: JsonOption = False) -> None:
+def check(
+    database: DatabaseOption = None,
+    settings: SettingsOption = None,
+    folder: FolderOption = None,
+    as_json: JsonOption = False,
+) -> None:
     """Look through the whole archive and tell what is wrong; nothing is changed. Exit status 1 if something is.
 
     Example: stommel station check --database sea.sqlite
     """
     from stommel.station.archive.soundness import soundness_of
 
-    found = soundness_of(database)
+    found = soundness_of(database_url(settings, database, folder))
     finish(found, None, as_json, _show)
     if found.problems:
         raise typer.Exit(1)
 
 
-def migrate(database: DatabaseOption, as_json: JsonOption = False) -> None:
+def migrate(
+    database: DatabaseOption = None,
+    settings: SettingsOption = None,
+    folder: FolderOption = None,
+    as_json: JsonOption = False,
+) -> None:
     """Bring an archive of an older version up to date, as the station does at its start.
 
     Example: stommel station migrate --database sea.sqlite
@@ -36,8 +46,9 @@ def migrate(database: DatabaseOption, as_json: JsonOption = False) -> None:
     from stommel.station.archive.looking import require_there
     from stommel.station.archive.migrating import CURRENT
 
-    require_there(address_of(database))
-    with Archive.open(database) as archive:
+    url = database_url(settings, database, folder)
+    require_there(address_of(url))
+    with Archive.open(url) as archive:
         answer = {"archive": archive.name, "version": CURRENT}
     finish(answer, None, as_json, lambda answer: typer.echo(f"{answer['archive']}: up to date ({answer['version']})"))
 

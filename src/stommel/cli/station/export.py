@@ -8,7 +8,7 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption
-from stommel.cli.station.database import DatabaseOption
+from stommel.cli.station.options import DatabaseOption, FolderOption, SettingsOption, database_url
 from stommel.errors import OutputError, StommelError
 from stommel.files.units import counted
 
@@ -36,7 +36,6 @@ EndOption = Annotated[str, typer.Option("--end", metavar="TIME", help="Last time
 
 
 def export(
-    database: DatabaseOption,
     vehicle: Annotated[int, typer.Option("--vehicle", min=1, max=250, help="Number of the vehicle.")],
     output: Annotated[Path, typer.Option("--output", metavar="FILE", help="Ends with .nc or .csv.")],
     what: Annotated[
@@ -44,6 +43,9 @@ def export(
     ] = What.ctd,
     begin: BeginOption = "1970-01-01",
     end: EndOption = "2100-01-01",
+    database: DatabaseOption = None,
+    settings: SettingsOption = None,
+    folder: FolderOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Write what a vehicle sampled to a file; the station may go on writing to the archive.
@@ -57,8 +59,9 @@ def export(
 
     require_file(output, (".csv",) if what is What.telemetry else (".nc", ".csv"))
     span = _span(begin, end)
-    require_there(address_of(database))
-    with Archive.open(database) as archive:
+    url = database_url(settings, database, folder)
+    require_there(address_of(url))
+    with Archive.open(url) as archive:
         _require_known(archive, vehicle)
         write = _write_telemetry if what is What.telemetry else _write_ctd
         count = write(archive, vehicle, *span, output)

@@ -27,15 +27,20 @@ FolderOption = Annotated[
 ]
 
 
+def database_url(settings: Path | None, database: str | None, folder: Path | None) -> str:
+    """The address of a station's archive, whether the station runs or not."""
+    from stommel.station.settings import load_settings
+
+    return load_settings(settings, {"database": database, "folder": folder}).database_url
+
+
 @contextmanager
 def opened_people(settings: Path | None, database: str | None, folder: Path | None) -> Iterator["People"]:
     """The people of a station, whether it runs or not."""
     from stommel.station.archive import Archive
     from stommel.station.people.people import People
-    from stommel.station.settings import load_settings
 
-    told = {"database": database, "folder": folder}
-    archive = Archive.open(load_settings(settings, told).database_url)
+    archive = Archive.open(database_url(settings, database, folder))
     try:
         yield People(archive)
     finally:

@@ -38,13 +38,13 @@ class History:
         before: int | None = None,
         limit: int = 200,
     ) -> list[Alarm]:
-        """Alarms, the newest first: of a vehicle, open or not, acknowledged or not, before the one of a number.
+        """Alarms of a vehicle and of the station itself, or all; the newest first, before the one of a number.
 
         An alarm that is not there has none before it.
         """
         query = select(table).order_by(table.c.raised_us.desc(), table.c.id.desc()).limit(limit)
         if vehicle is not None:
-            query = query.where(table.c.vehicle_id == vehicle)
+            query = query.where(or_(table.c.vehicle_id == vehicle, table.c.vehicle_id.is_(None)))
         if is_open is not None:
             query = query.where(table.c.cleared_us.is_(None) if is_open else table.c.cleared_us.is_not(None))
         if is_acknowledged is not None:

@@ -1,6 +1,5 @@
 """Where a layer lies."""
 
-import math
 from typing import NamedTuple
 
 from stommel.errors import StommelError
@@ -45,10 +44,12 @@ def require_area(bounds: Bounds) -> None:
     LayerError
         They are outside, or span nothing.
     """
-    for low, high, names, most in (
-        (bounds.west, bounds.east, "west, east", 180.0),
-        (bounds.south, bounds.north, "south, north", 90.0),
-    ):
-        if not (-most <= low and high <= most and high - low >= LEAST_SPAN and math.isfinite(high - low)):
-            words = f"{names} = {low:g}, {high:g}: must rise, between -{most:g} and {most:g} deg"
-            raise LayerError(words, names.partition(",")[0], f"-{most:g} to {most:g}")
+    for low_name, high_name, most in (("west", "east", 180.0), ("south", "north", 90.0)):
+        low, high = getattr(bounds, low_name), getattr(bounds, high_name)
+        for name, value in ((low_name, low), (high_name, high)):
+            if not abs(value) <= most:
+                allowed = f"-{most:g} to {most:g} deg"
+                raise LayerError(f"{name} = {value:g}: must be between -{most:g} and {most:g} deg", name, allowed)
+        if high - low < LEAST_SPAN:
+            words = f"{low_name} = {low:g}: must be less than {high_name} = {high:g}"
+            raise LayerError(words, low_name, f"less than {high:g} deg")

@@ -5,12 +5,12 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from pydantic import ValidationError
-
 from stommel.errors import FileError, StommelError
-from stommel.files.sentences import sentences
+from stommel.files.sentences import validated
 from stommel.station.planner.plan import StationPlan
 
+ORIGIN = "plan"
+"""How sentences name it where it is no file."""
 _SENTENCE = re.compile(r"(?P<key>[A-Za-z_][\w.]*)(?: = (?P<value>.+?))?: (?P<rest>.+)", re.DOTALL)
 _ALLOWED = (
     (re.compile(r"\bmust (?:be )?([^;]+)"), "{}"),
@@ -71,10 +71,8 @@ def _allowed(sentence: str) -> str:
     return ""
 
 
-def problems_of(error: ValidationError | StommelError, origin: str = "") -> list[PlanProblem]:
+def problems_of(error: StommelError, origin: str = ORIGIN) -> list[PlanProblem]:
     """Everything that an error says is wrong; `origin` is how its sentences name the plan, and is left out."""
-    if isinstance(error, ValidationError):
-        return [problem(key, sentence) for key, sentence in sentences(error, StationPlan)]
     if isinstance(error, PlanError):
         return list(error.problems)
     if isinstance(error, FileError):
@@ -92,6 +90,6 @@ def plan_from(document: Any) -> StationPlan:
         Every key that is unknown, missing or out of range.
     """
     try:
-        return StationPlan.model_validate(document)
-    except ValidationError as error:
+        return validated(document, StationPlan, ORIGIN)
+    except FileError as error:
         raise PlanError(problems_of(error)) from None

@@ -11,11 +11,9 @@ from stommel.ocean.ocean import Ocean
 from stommel.simulation.scenario.loading import mission_from
 from stommel.simulation.scenario.mission import Mission
 from stommel.station.planner.plan import StationPlan, Water
-from stommel.station.planner.problems import PlanError, problem
+from stommel.station.planner.problems import ORIGIN, PlanError, problem
 from stommel.vehicle import Vehicle, load_vehicle
 
-ORIGIN = "plan"
-"""How sentences name it."""
 _SAMPLES_EVERY = 600.0
 """[s]"""
 _ROWS = 100_000

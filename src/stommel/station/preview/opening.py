@@ -5,7 +5,7 @@ that it expects. Numbers are rounded to nine digits, so that plan and orders tha
 """
 
 from dataclasses import dataclass
-from math import degrees, isfinite, isnan
+from math import degrees, inf, isfinite, isnan
 from typing import Any
 
 import numpy as np
@@ -13,10 +13,13 @@ import numpy as np
 from stommel.control.dive_cycle import PHASES
 from stommel.control.orders import Orders
 from stommel.control.orders_file import OrdersHeader, parse_orders
-from stommel.mission.plan import Aborts, Sampling, Surfacing
-from stommel.planning.ballasting import afloat_volume, mass_position_at_rest, neutral_ballast, surplus_afloat
+from stommel.errors import StommelError
+from stommel.mission.plan import Sampling, Surfacing
+from stommel.planning.ballasting import afloat_volume, mass_position_at_rest, neutral_ballast, surplus_afloat, water_of
 from stommel.planning.deployment import Deployment
 from stommel.simulation.planned_orders import planned_orders
+from stommel.simulation.plant.building import plant_of
+from stommel.simulation.scenario.mission import Mission
 from stommel.station.planner.problems import plan_from
 from stommel.station.preview.mission import mission_of
 from stommel.vehicle import load_vehicle
@@ -71,7 +74,7 @@ def opened(text: str, around: dict[str, Any], origin: str = ORIGIN) -> Opened:
     ballast, remarks = _ballast(orders, mission.deployment)
     told["dives"]["ballast_ml"] = ballast
     told["surface"] = _surface(orders, mission.deployment)
-    told["abort"] = _abort(orders, planned_orders(mission).alarms.energy, told["abort"])
+    told["abort"] = _abort(orders, _usable_energy(mission), told["abort"])
     _leave_out_the_usual_gain(told, orders)
     plan = plan_from(told).model_dump(mode="json", exclude_unset=True)
     return Opened(plan, tuple(remarks))
@@ -193,22 +196,30 @@ def _surface_pitch(r_px: float, V_b: float, deployment: Deployment) -> dict[str,
     return {"pitch_deg": _neat(round(low, 6))}
 
 
-def _abort(orders: Orders, most: float, told: dict[str, Any]) -> dict[str, Any]:
-    """Aborts of the plan; `most` is the energy at which the usual share of the battery is left [J]."""
+def _usable_energy(mission: Mission) -> float:
+    """Of the charged battery in the water of the plan [J]."""
+    return float(plant_of(mission.vehicle, water_of(mission.deployment).mean_temperature_c).battery.energy)
+
+
+def _abort(orders: Orders, usable: float, told: dict[str, Any]) -> dict[str, Any]:
+    """Aborts of the plan; `usable` is the energy of the battery [J]."""
     found = {key: value for key, value in told.items() if value is not None}
-    alarms, usual = orders.alarms, Aborts().battery_share
+    alarms = orders.alarms
     if isfinite(alarms.internal_pressure):
         found["internal_pressure_kpa"] = _neat(alarms.internal_pressure / 1e3)
-    if isfinite(alarms.energy) and isfinite(most):
-        found["battery_share"] = float(np.clip(_neat(1.0 - (1.0 - usual) * alarms.energy / most), 0.0, 1.0))
+    if isfinite(alarms.energy) and isfinite(usable):
+        found["battery_share"] = float(np.clip(_neat(1.0 - alarms.energy / usable), 0.0, 1.0))
     return found
 
 
 def _leave_out_the_usual_gain(told: dict[str, Any], orders: Orders) -> None:
     """Let the gain of the pitch follow from the flight table where it did."""
     gain = told["pitch_control"].pop("gain_mm_per_deg")
-    without = planned_orders(mission_of(plan_from(told))).laws.pitch.gain
-    if not _alike(without, orders.laws.pitch.gain):
+    try:
+        usual = planned_orders(mission_of(plan_from(told))).laws.pitch.gain
+    except StommelError:  # impossible in this water, as a check will tell
+        usual = inf
+    if not _alike(usual, orders.laws.pitch.gain):
         told["pitch_control"]["gain_mm_per_deg"] = gain
 
 

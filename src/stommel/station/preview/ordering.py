@@ -13,11 +13,11 @@ from stommel.simulation.scenario.mission import Mission
 from stommel.simulation.scenario.orders_header import orders_header
 from stommel.simulation.scenario.remarks import remarks
 from stommel.station.planner.plan import StationPlan
-from stommel.station.planner.problems import PlanError, PlanProblem, problem, problems_of
+from stommel.station.planner.problems import ORIGIN, PlanError, PlanProblem, problem, problems_of
 from stommel.station.planner.way import way_problems
 from stommel.station.preview.bottom import bottom_problems, bottom_remarks
 from stommel.station.preview.endurance import endurance_remarks
-from stommel.station.preview.mission import ORIGIN, mission_of
+from stommel.station.preview.mission import mission_of
 
 _PLAN_KEYS = {
     "dives.ballast_dive_m3": "dives",
@@ -61,7 +61,7 @@ def ordered(plan: StationPlan) -> Ordered:
     try:
         mission = mission_of(plan)
     except StommelError as error:
-        return Ordered(None, (*wrong, *problems_of(error, ORIGIN)), ())
+        return Ordered(None, (*wrong, *problems_of(error)), ())
     wrong += bottom_problems(plan, mission.ocean)
     text, refused = _orders(mission)
     if wrong or refused:
@@ -91,7 +91,7 @@ def _orders(mission: Mission) -> tuple[str | None, list[PlanProblem]]:
         refused = [_in_words_of_the_plan(each.key, each.message) for each in refusals(orders, header, limits, ORIGIN)]
         return (None, refused) if refused else (orders_text(orders, header, ORIGIN), [])
     except StommelError as error:
-        return None, problems_of(error, ORIGIN)
+        return None, problems_of(error)
 
 
 def _in_words_of_the_plan(key: str, sentence: str) -> PlanProblem:

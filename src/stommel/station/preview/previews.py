@@ -223,7 +223,7 @@ class Previews:
             raise PlanError(PlanProblem(**row) for row in found["problems"])
         return str(found["orders"])
 
-    def open(self, orders: str, around: dict[str, Any], patience: float = LONGEST_CHECK) -> dict[str, Any]:
+    def opened(self, orders: str, around: dict[str, Any], patience: float = LONGEST_CHECK) -> dict[str, Any]:
         """Plan of orders, and what of them it cannot hold; `around` as `preview.opening.opened` has it.
 
         Raises

@@ -62,7 +62,7 @@ def _answer(channel: "connection.Connection[Any, Any]", answer: Answer, document
     except _ToldToStopError:
         return STOPPED, None
     except StommelError as error:
-        return REFUSED, [problem.as_row() for problem in problems_of(error, "plan")]
+        return REFUSED, [problem.as_row() for problem in problems_of(error)]
 
 
 def _answers() -> dict[str, Answer]:

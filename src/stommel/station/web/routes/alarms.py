@@ -68,13 +68,13 @@ class AlertTried(BaseModel):
 def read_alarms(
     _user: Viewer,
     station: TheStation,
-    vehicle: Annotated[int | None, Query(ge=1, le=250)] = None,
+    vehicle: Annotated[int | None, Query(ge=1, le=250, description="Of this one, and of the station itself.")] = None,
     is_open: Annotated[bool | None, Query(alias="open", description="True: still raised; false: over.")] = None,
     acknowledged: Annotated[bool | None, Query(description="Whether somebody has acknowledged them.")] = None,
     before: Annotated[int | None, Query(ge=1, le=GREATEST_NUMBER, description="The last alarm of a page.")] = None,
     limit: Annotated[int, Query(ge=1, le=1000)] = 200,
 ) -> list[AlarmRow]:
-    """Alarms of all vehicles and of the station itself, the newest first."""
+    """Alarms of all vehicles or one, and of the station itself, the newest first."""
     found = station.alarms.history.listed(
         vehicle=vehicle, is_open=is_open, is_acknowledged=acknowledged, before=before, limit=limit
     )

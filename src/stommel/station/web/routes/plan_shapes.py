@@ -83,6 +83,12 @@ class PlannedDive(BaseModel):
     energy_j: float | None
 
 
+class KeptPreview(BaseModel):
+    """What of a preview that was kept is compared."""
+
+    dives: list[PlannedDive]
+
+
 class PlannedWaypoint(BaseModel):
     """What becomes of a waypoint."""
 

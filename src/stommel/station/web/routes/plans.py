@@ -4,8 +4,9 @@ from collections.abc import Mapping
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Query
-from pydantic import TypeAdapter, ValidationError
 
+from stommel.errors import FileError
+from stommel.files.sentences import validated
 from stommel.geometry.geodesics import Place
 from stommel.planning.vehicle_limits import vehicle_limits
 from stommel.station.planner.comparison import ComparedDive, compared
@@ -26,10 +27,10 @@ from stommel.station.web.routes.plan_shapes import (
     Comparison,
     FlownPlan,
     Job,
+    KeptPreview,
     OpenedPlan,
     OrdersBody,
     PlanBody,
-    PlannedDive,
     PlanTemplate,
     PlanTemplates,
     Problem,
@@ -89,7 +90,7 @@ def open_orders(
 ) -> OpenedPlan:
     """Return the plan of an orders file for a vehicle."""
     _require(station, vehicle)
-    return OpenedPlan(**station.previews.open(body.orders, _around(station, vehicle)))
+    return OpenedPlan(**station.previews.opened(body.orders, _around(station, vehicle)))
 
 
 @router.get("/jobs/{job}")
@@ -114,7 +115,7 @@ def show_flown_plan(_user: Viewer, line: Line, station: TheStation) -> FlownPlan
     about = {"mission": held.name, "sha256": held.sha256, "t": held.begin or None}
     if held.plan is not None:
         return FlownPlan.model_validate(about | {"plan": plan_from(held.plan), "remarks": []})
-    return FlownPlan.model_validate(about | station.previews.open(held.orders, _around(station, line.vehicle)))
+    return FlownPlan.model_validate(about | station.previews.opened(held.orders, _around(station, line.vehicle)))
 
 
 @router.get("/vehicles/{vehicle}/mission/comparison")
@@ -146,10 +147,10 @@ def compare_mission(
 def _predicted(preview: Mapping[str, Any] | None) -> list[dict[str, Any]] | None:
     """Dives of a preview; None where there is none, or something else was kept in its place."""
     try:
-        dives = TypeAdapter(list[PlannedDive]).validate_python((preview or {}).get("dives"))
-    except ValidationError:
+        kept = validated(preview, KeptPreview, "preview")
+    except FileError:
         return None
-    return [dive.model_dump() for dive in dives]
+    return [dive.model_dump() for dive in kept.dives]
 
 
 def _compared(row: ComparedDive) -> Compared:

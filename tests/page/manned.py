@@ -1,0 +1,63 @@
+"""A real station at which people log in; its vehicle is silent, so that what is given waits."""
+
+import json
+import subprocess
+import sys
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from tests.page.conftest import free_port, serve, station_command
+
+PASSWORD = "a long way to the sea"
+PEOPLE = {"ada": "admin", "ling": "pilot", "max": "pilot", "vera": "viewer"}
+
+
+@pytest.fixture(scope="session")
+def manned(built: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Address of a station with the people of `PEOPLE`."""
+    folder = tmp_path_factory.mktemp("manned")
+    database = f"sqlite:///{folder / 'archive.sqlite'}"
+    for name, role in PEOPLE.items():
+        code = "from stommel.cli import main; main()"
+        command = [sys.executable, "-c", code, "station", "user", "add", name, "--role", role, "--database", database]
+        subprocess.run(command, input=PASSWORD, text=True, check=True, capture_output=True, timeout=120)
+    address = f"http://127.0.0.1:{(port := free_port())}"
+    link = ["--link", f"tcp:127.0.0.1:{free_port()}", "--unsigned", "--model", "zju", "--login"]
+    for _ in serve(station_command(folder, port, "--database", database, *link), address):
+        yield address
+
+
+def sign_in(page: Any, address: str, name: str, view: str) -> None:
+    """Log somebody in, and open a view."""
+    page.goto(f"{address}/#/{view}")
+    page.get_by_label("Name").fill(name)
+    page.get_by_label("Password").fill(PASSWORD)
+    page.get_by_role("button", name="Sign in").click()
+    page.get_by_role("button", name="Abort", exact=True).wait_for()
+
+
+def kind(page: Any, name: str) -> Any:
+    """The button that opens the form of a command."""
+    return page.locator(f"[data-kind='{name}'] > button")
+
+
+def told(address: str, path: str, token: str | None = None) -> Any:
+    """What the station answers, without the page."""
+    request = urllib.request.Request(f"{address}/api{path}")
+    if token is not None:
+        request.add_header("Authorization", f"Bearer {token}")
+    with urllib.request.urlopen(request, timeout=20.0) as answer:
+        return json.load(answer)
+
+
+def status(address: str, path: str, token: str) -> int:
+    """HTTP status of what the station answers."""
+    try:
+        told(address, path, token)
+    except urllib.error.HTTPError as error:
+        return error.code
+    return 200

@@ -1,0 +1,93 @@
+"""The log book in the page: notes of people with their times, what else happened beside them, found by words."""
+
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.page.past import Past
+
+pytestmark = pytest.mark.timeout(180)
+
+
+def opened(page: Any, past: Past) -> Any:
+    """The log book."""
+    page.goto(f"{past.address}/#/vehicle/1/log")
+    page.get_by_role("textbox", name="Note").wait_for()
+    return page
+
+
+def test_a_note_is_written_and_stays(page: Any, past: Past, screenshot: Any) -> None:
+    opened(page, past).get_by_role("textbox", name="Note").fill("Sea state 3, ship 2 km north.\nSwitching the antenna.")
+    page.get_by_role("button", name="Write").click()
+    page.locator("li.note", has_text="Sea state 3").wait_for()
+    note = httpx.get(f"{past.address}/api/notes?vehicle=1&search=antenna").json()[0]
+    assert note["words"] == "Sea state 3, ship 2 km north.\nSwitching the antenna."
+    assert note["user"] == "local"
+    screenshot("log")
+    page.reload()
+    page.locator("li.note", has_text="Sea state 3").wait_for()
+
+
+def test_a_note_can_be_of_a_time_that_has_passed(page: Any, past: Past) -> None:
+    opened(page, past).get_by_label("a time that has passed").check()
+    page.get_by_label("Time, UTC").fill("2026-01-02 03:04:05")
+    page.get_by_role("textbox", name="Note").fill("Launched.")
+    page.get_by_role("button", name="Write").click()
+    page.locator("li.note", has_text="Launched.").wait_for()
+    assert httpx.get(f"{past.address}/api/notes?vehicle=1&search=Launched").json()[0]["t"] == 1767323045.0
+    page.get_by_role("heading", name="2026-01-02").wait_for()
+    link = page.locator("li.note", has_text="Launched.").get_by_role("link").get_attribute("href")
+    assert "window=1767322145-1767323945" in link  # a quarter of an hour to both sides
+
+
+def test_what_another_person_writes_comes_by_itself_as_text(page: Any, past: Past) -> None:
+    """Cross-site scripting: words of people are shown as they are, and never run."""
+    opened(page, past)
+    words = "<img src=x onerror=\"document.title='taken'\"><script>document.title='taken'</script>"
+    httpx.post(f"{past.address}/api/notes", json={"vehicle": 1, "words": words}).raise_for_status()
+    page.locator("li.note", has_text="<img src=x").wait_for()
+    page.wait_for_timeout(300)
+    assert page.title() != "taken"
+    assert page.locator("li img").count() == 0
+
+
+def test_entries_are_found_by_kind_and_words(page: Any, past: Past) -> None:
+    for words in ("first needle", "second needle", "third straw"):
+        httpx.post(f"{past.address}/api/notes", json={"vehicle": 1, "words": words}).raise_for_status()
+    past.speaker.say("GLIDER_STATE", time_boot_ms=1, depth=0.0, alarms=1)
+    opened(page, past).locator("li.alarm", has_text="leak").or_(page.locator("li.alarm")).first.wait_for()
+    page.get_by_role("button", name="Notes", exact=True).click()
+    page.locator("li.alarm").first.wait_for(state="detached")
+    page.get_by_role("searchbox").fill("needle")
+    page.locator("li", has_text="third straw").wait_for(state="detached")
+    assert page.locator("li.note").count() == 2
+    page.get_by_role("searchbox").fill("no such words")
+    page.get_by_text("Nothing in the log book is like that.").wait_for()
+    past.speaker.say("GLIDER_STATE", time_boot_ms=2, depth=0.0, alarms=0)
+
+
+def test_older_entries_come_page_by_page(page: Any, past: Past) -> None:
+    from playwright.sync_api import expect
+
+    for number in range(130):
+        note = {"vehicle": 1, "words": f"page {number}", "t": past.begin + number}
+        httpx.post(f"{past.address}/api/notes", json=note).raise_for_status()
+    opened(page, past).get_by_role("searchbox").fill("page")
+    expect(page.locator("li.note")).to_have_count(100)
+    page.get_by_role("button", name="Older entries").click()
+    expect(page.locator("li.note")).to_have_count(130)
+    texts = page.locator("li.note .words").all_inner_texts()
+    assert texts == [f"page {number}" for number in reversed(range(130))]
+    assert page.get_by_role("button", name="Older entries").count() == 0
+
+
+def test_an_empty_note_is_not_written(page: Any, past: Past) -> None:
+    opened(page, past).get_by_role("button", name="Write").click()
+    page.get_by_text("Write something first.").wait_for()
+
+
+def test_nobody_is_kept_from_the_log_book(page: Any, past: Past, serious: Any) -> None:
+    """axe-core: no serious finding."""
+    opened(page, past).wait_for_timeout(500)
+    assert serious() == []

@@ -1,0 +1,139 @@
+"""Replays in the page: what is shown at a time of the replay is what the archive has of that time."""
+
+import math
+import re
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.page.past import Past
+
+pytestmark = pytest.mark.timeout(180)
+
+
+@pytest.fixture(autouse=True)
+def none_before(past: Past) -> None:
+    """Each test begins without a replay; one that nobody listens to would go on for a minute."""
+    for state in states(past):
+        httpx.delete(f"{past.address}/api/replays/{state['replay']}")
+
+
+def begun(page: Any, past: Past, speed: str = "60") -> Any:
+    """A replay of the first two hours."""
+    page.goto(f"{past.address}/#/vehicle/1/replay?begin={past.begin:.0f}&end={past.begin + 7200:.0f}")
+    page.get_by_role("spinbutton", name="Speed").fill(speed)
+    page.get_by_role("button", name="Start the replay").click()
+    page.locator("[data-panel] canvas").first.wait_for()
+    return page
+
+
+def states(past: Past) -> list[dict[str, Any]]:
+    """Replays that go on."""
+    found: list[dict[str, Any]] = httpx.get(f"{past.address}/api/replays").json()
+    return found
+
+
+def depth_told(page: Any) -> float:
+    """Depth on the tile."""
+    said = page.locator(".tile", has_text="depth").first.locator(".value").inner_text()
+    return float(re.sub(r"[^\d.\-]", "", said.replace("\u2212", "-")))
+
+
+def depth_at(past: Past, t: float) -> float:
+    """Depth that the archive has, the newest until a time."""
+    query = f"channels=depth_m&begin={t - 10}&end={t}&method=raw"
+    return float(httpx.get(f"{past.address}/api/vehicles/1/series?{query}").json()["channels"]["depth_m"]["value"][-1])
+
+
+def test_a_replay_shows_what_the_archive_has_of_that_time(page: Any, past: Past, screenshot: Any) -> None:
+    begun(page, past, "600")
+    page.wait_for_timeout(2500)
+    screenshot("replay")
+    page.get_by_role("button", name="Pause").click()
+    page.get_by_role("button", name="Go on").wait_for()
+    page.wait_for_timeout(1200)
+    (state,) = states(past)
+    assert state["paused"]
+    assert past.begin < state["at"] < past.begin + 7200
+    assert depth_told(page) == pytest.approx(depth_at(past, state["at"]), abs=0.2)
+    still = states(past)[0]["at"]
+    page.wait_for_timeout(700)
+    assert states(past)[0]["at"] == still, "while it is paused its time stands still"
+    drawn = page.evaluate("document.querySelector('[data-panel=path]').drawn")
+    t = [at for at, value in zip(*drawn["data"], strict=False) if value is not None]
+    assert max(t) <= state["at"] + 1e-3, "nothing is shown that had not happened yet"
+    assert max(t) > state["at"] - 30.0
+
+
+def test_a_replay_jumps_and_changes_its_speed(page: Any, past: Past) -> None:
+    begun(page, past, "1")
+    slider = page.get_by_label("Place in the replay")
+    slider.evaluate(f"""(input) => {{
+        input.value = {past.begin + 3600};
+        input.dispatchEvent(new Event('input', {{ bubbles: true }}));
+        input.dispatchEvent(new Event('change', {{ bubbles: true }}));
+    }}""")
+    page.wait_for_timeout(1500)
+    at = states(past)[0]["at"]
+    assert past.begin + 3600 <= at <= past.begin + 3660
+    assert depth_told(page) == pytest.approx(depth_at(past, at), abs=2.0)
+    page.get_by_role("combobox", name="Speed").select_option("200")
+    page.wait_for_timeout(1500)
+    assert states(past)[0]["speed"] == 200.0
+    assert states(past)[0]["at"] > at + 100.0
+
+
+def test_the_end_is_reached_and_begun_again(page: Any, past: Past) -> None:
+    begun(page, past, "1000")
+    again = page.get_by_role("button", name="From the beginning")
+    again.wait_for(timeout=30_000)
+    assert states(past)[0]["at"] == math.floor(past.begin) + 7200
+    again.click()
+    page.get_by_role("button", name="Pause").wait_for()
+    assert states(past)[0]["at"] < past.begin + 7000
+
+
+def test_live_values_are_untouched_by_a_replay_at_full_speed(page: Any, past: Past) -> None:
+    """yamcs/yamcs#911: a replay at full speed kills no connection; live views go on beside it."""
+    lost: list[Any] = []
+    page.on("websocket", lambda socket: socket.on("close", lambda _: lost.append(socket.url)))
+    begun(page, past, "1000")
+    other = page.context.new_page()
+    other.goto(f"{past.address}/#/vehicle/1/plots?window=live-600")
+    other.locator("[data-panel] canvas").first.wait_for()
+    for k in range(10):
+        past.speaker.say("ATTITUDE", time_boot_ms=0, pitch=math.radians(70.0 + k), roll=0.0, yaw=1.0)
+        page.wait_for_timeout(200)
+    other.wait_for_timeout(1500)
+    row = other.evaluate("document.querySelector('[data-panel=attitude]').drawn.data[1]")
+    assert {round(value, 3) for value in row if value} >= {70.0 + k for k in range(10)}
+    assert lost == []
+    other.close()
+
+
+def test_leaving_the_view_ends_the_replay(page: Any, past: Past) -> None:
+    begun(page, past, "1")
+    assert len(states(past)) == 1
+    page.goto(f"{past.address}/#/vehicle/1/log")
+    page.get_by_role("textbox", name="Note").wait_for()
+    page.wait_for_timeout(1000)
+    assert states(past) == []
+
+
+def test_a_stretch_that_cannot_be_is_refused(page: Any, past: Past) -> None:
+    page.goto(f"{past.address}/#/vehicle/1/replay?begin={past.begin + 60:.0f}&end={past.begin:.0f}")
+    page.get_by_role("button", name="Start the replay").click()
+    page.get_by_text("The end must be after the beginning.").wait_for()
+
+
+@pytest.mark.parametrize("page", [{"color_scheme": "dark", "viewport": {"width": 1024, "height": 768}}], indirect=True)
+def test_nobody_is_kept_from_replays(page: Any, past: Past, serious: Any, screenshot: Any) -> None:
+    """axe-core: no serious finding, before and while it runs."""
+    page.goto(f"{past.address}/#/vehicle/1/replay")
+    page.get_by_role("button", name="Start the replay").wait_for()
+    page.wait_for_timeout(500)
+    assert serious() == []
+    begun(page, past).wait_for_timeout(1500)
+    screenshot("replay-tablet-dark")
+    assert serious() == []

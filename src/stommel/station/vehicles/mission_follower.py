@@ -13,6 +13,7 @@ from stommel.link.files.folder_disk import FolderDisk
 from stommel.link.files.progress import State
 from stommel.link.missions.orders_client import OrdersOutcome
 from stommel.link.missions.port import HeldOrders
+from stommel.messages.mavlink import enumeration
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.mission_rows import (
     ABOARD,
@@ -30,6 +31,8 @@ EVERY = 0.2
 """Between two looks [s]."""
 ASK_WITHIN = 600.0
 """Time within which the vehicle says which orders it holds [s]."""
+_PHASES = enumeration("GLIDER_PHASE")
+_DIVING = ("DESCENT", "INFLECTION", "ASCENT", "DRIFT")
 MOST_WAITING = 10
 LOCAL = "active.orders"
 ABOARD_PATH = "missions/active.orders"
@@ -46,6 +49,8 @@ class Task:
     row: MissionRow | None = None
     """Of an upload."""
     within: float = ASK_WITHIN
+    since: float | None = None
+    """When it was first looked at [s]."""
 
 
 class MissionFollower:
@@ -107,9 +112,30 @@ class MissionFollower:
             self.current = None
         if self.current is None and not self._queue and line.end.is_heard(t):
             self._ask_if_new(line)
-        if self.current is None and self._queue:
-            self._begin(line, self._queue.popleft(), t)
+        if self.current is None and (task := self._next(line, t)) is not None:
+            self._begin(line, task, t)
         self._look_at_fetch(line)
+
+    def _next(self, line: VehicleLine, t: float) -> Task | None:
+        """The next request whose time has come: a vehicle that is heard under water takes missions at the surface."""
+        for task in list(self._queue):
+            task.since = t if task.since is None else task.since
+            is_late = t - task.since > task.within
+            if task.kind == "ask" or is_late or not _dives(line):
+                self._queue.remove(task)
+                if is_late:
+                    self._give_up(line, task)
+                    continue
+                task.within -= t - task.since
+                return task
+        return None
+
+    def _give_up(self, line: VehicleLine, task: Task) -> None:
+        words = f"not sent: the vehicle has not come to the surface within {task.within:.0f} s"
+        if task.row is not None:
+            self._rows.change(task.row.id, FAILED, words, line.clock.now())
+        self.words = words
+        self._tell(line.vehicle, None if task.row is None else task.row.id)
 
     def _ask_if_new(self, line: VehicleLine) -> None:
         """Ask what is held when the vehicle is first heard, and when it tells another mission."""
@@ -144,6 +170,8 @@ class MissionFollower:
             else:
                 self.words, self._asked_for = words, ()
             return
+        if outcome.ending is Ending.WHOLE:  # what it held before, perhaps still being fetched, it holds no more
+            self.held, self.words = None, "the vehicle is being asked"
         if task.row is not None:
             if outcome.ending is Ending.WHOLE:
                 self._be_aboard(line, task.row, now, "taken by the vehicle, whole")
@@ -198,3 +226,9 @@ class MissionFollower:
         added = self._rows.add(row, "found aboard")
         if self.held is not None and self.held.sha256 == sha256:
             self._be_aboard(line, added, line.clock.now(), "found aboard")
+
+
+def _dives(line: VehicleLine) -> bool:
+    """Whether the vehicle said last that it dives."""
+    said = line.end.heard.last.get("GLIDER_STATE")
+    return said is not None and said.values["phase"] in {_PHASES[f"GLIDER_PHASE_{name}"] for name in _DIVING}

@@ -100,7 +100,7 @@ def _station(folder: Path, port: int) -> Iterator[tuple[subprocess.Popen[str], s
         sys.executable, "-c", "from stommel.cli import main; main()", "station", "serve", "--folder", str(folder),
         "--link", f"tcp:127.0.0.1:{port}", "--unsigned", "--port", "0",
     ]  # fmt: skip
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)  # noqa: S603 - our own command
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     try:
         assert process.stdout is not None
         for line in process.stdout:
@@ -184,7 +184,7 @@ def _settled(archive: Path, wanted: int) -> int:
     ends = time.monotonic() + SETTLED
     while True:
         with sqlite3.connect(f"file:{archive}?mode=ro", uri=True) as database:
-            chosen = f"SELECT count(*) FROM frames WHERE direction = 'in' AND message_id IN ({marks})"  # noqa: S608
+            chosen = f"SELECT count(*) FROM frames WHERE direction = 'in' AND message_id IN ({marks})"
             stored = int(database.execute(chosen).fetchone()[0])
         if stored >= wanted or time.monotonic() > ends:
             return stored

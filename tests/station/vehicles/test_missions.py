@@ -1,12 +1,12 @@
 """Missions at the station. Oracle: what the vehicle's side of the link holds, byte for byte."""
 
 import hashlib
-import time
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from stommel.errors import StommelError
 from stommel.station.station import Station
 from stommel.station.vehicles.missions import MissionError
 from tests.station.client import Client
@@ -15,11 +15,6 @@ from tests.station.speaker import until
 from tests.station.stations import station
 from tests.support.orders import ORDERS
 
-DIVES = {
-    "time_boot_ms": 1000, "phase": 3, "executive": 3, "dive": 1, "waypoint": 0, "depth": 40.0, "altitude": 50.0,
-    "surface_time_left": float("nan"), "mission": 1, "alarms": 0,
-}  # fmt: skip
-"""On its way up."""
 OTHER = ORDERS.replace("There and back", "Another way")
 
 
@@ -126,31 +121,27 @@ def test_a_mission_on_its_way_when_the_station_stops_is_told_as_interrupted(tmp_
             assert vehicle.missions.files == [ORDERS.encode()]
 
 
-def test_a_vehicle_that_is_heard_while_it_dives_gets_its_mission_at_the_surface(tmp_path: Path) -> None:
-    """One on a cable is heard under water, and refuses missions there: it was sent at once, and refused."""
-    with served() as vehicle:
-        holds(vehicle, ORDERS)
-        with station(tmp_path, vehicle.address) as found:
-            client = Client(found)
-            until(lambda: ("in memory", "aboard") in states(found))
-            vehicle.say("GLIDER_STATE", **DIVES)
-            until(lambda: found.hub.values(1).get("phase", (0.0, 0.0))[1] == 3.0)
-            upload(client, OTHER)
-            time.sleep(1.0)
-            assert ("Another way", "waiting") in states(found)
-            assert vehicle.missions.files == [ORDERS.encode()]
-            vehicle.say("GLIDER_STATE", **(DIVES | {"phase": 0}))
-            until(lambda: ("Another way", "aboard") in states(found))
-            assert vehicle.missions.files[-1] == OTHER.encode()
+def test_a_mission_refused_under_water_is_sent_again_at_the_surface(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The vehicle's own words of refusal; a glider on a cable is heard under water. Oracle: what it holds in the end."""
+    from stommel.station.vehicles import mission_follower
 
+    monkeypatch.setattr(mission_follower, "AGAIN", 1.0)
+    dives = [True]
+    with served() as vehicle, station(tmp_path, vehicle.address) as found:
+        check = vehicle.missions.check
 
-def test_one_that_never_comes_up_is_told_of(tmp_path: Path) -> None:
-    with served() as vehicle:
-        holds(vehicle, ORDERS)
-        with station(tmp_path, vehicle.address) as found:
-            until(lambda: ("in memory", "aboard") in states(found))
-            vehicle.say("GLIDER_STATE", **DIVES)
-            until(lambda: found.hub.values(1).get("phase", (0.0, 0.0))[1] == 3.0)
-            row = found.missions.upload(1, "ada", OTHER, valid_for_s=1.0)
-            until(lambda: ("Another way", "failed") in states(found))
-            assert "not come to the surface within 1 s" in found.missions.find(1, row.id)[1][-1].words
+        def checked() -> None:
+            if dives[0]:
+                raise StommelError("mission: the vehicle is under water; send it at the surface")
+            check()
+
+        vehicle.missions.check = checked  # type: ignore[method-assign]
+        client = Client(found)
+        row = upload(client, OTHER)
+        until(lambda: "under water" in client.get(f"/vehicles/1/missions/{row['id']}")["words"])
+        assert ("Another way", "waiting") in states(found) or ("Another way", "sending") in states(found)
+        dives[0] = False
+        until(lambda: ("Another way", "aboard") in states(found))
+        assert vehicle.missions.files[-1] == OTHER.encode()

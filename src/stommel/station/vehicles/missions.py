@@ -68,7 +68,7 @@ class Missions:
             raise MissionError(f"vehicle {vehicle}: {MOST_WAITING} requests about missions wait for it")
         sha256 = hashlib.sha256(orders.encode()).hexdigest()
         row = MissionRow(0, vehicle, line.clock.now(), user, header.mission, sha256, orders, plan, WAITING)
-        row = self._rows.add(row, "waits to be sent, at the surface", preview)
+        row = self._rows.add(row, "waits to be sent", preview)
         ask(line, lambda _end, _t: follower.put(Task("upload", user, row, valid_for_s)))
         self._tell(vehicle, row.id)
         return row

@@ -27,6 +27,8 @@ ARGUMENTS = [
     "--enable-precise-memory-info",
 ]  # fmt: skip
 AXE = ROOT / "page" / "node_modules" / "axe-core" / "axe.min.js"
+SPEED = "60" if "STOMMEL_PAGE_SOAK" in os.environ else "20"
+"""Of the simulated glider, times real time."""
 Screenshot = Callable[[str], Path]
 
 
@@ -93,7 +95,7 @@ def station(built: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[s
     """Address of the real station with a simulated glider beside it, as `make run` starts it."""
     address = f"http://127.0.0.1:{(port := free_port())}"
     folder = tmp_path_factory.mktemp("station") / "flight"
-    for _ in serve(station_command(folder, port, "--sitl", "east_china_sea", "--speed", "20"), address):
+    for _ in serve(station_command(folder, port, "--sitl", "east_china_sea", "--speed", SPEED), address):
         heard(address)
         yield address
 

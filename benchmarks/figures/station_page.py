@@ -36,6 +36,7 @@ def station_first_paint_s() -> Measurement:
     if not CHROMIUM.exists():
         return Measurement(None, {"skipped": f"no Chromium at {CHROMIUM}"})
     from playwright.sync_api import sync_playwright  # noqa: PLC0415
+
     from tests.page.paint import useful_paint_s  # noqa: PLC0415
 
     with _station() as address, sync_playwright() as playwright:

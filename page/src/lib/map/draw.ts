@@ -56,18 +56,27 @@ function drawLand(context: Context, project: GeoProjection, view: MapView, size:
 
 function drawLayer(context: Context, project: GeoProjection, layer: MapLayer, images: Scene['images']): void {
   const image = layer.image === undefined ? undefined : images.get(layer.image);
-  if (image && layer.bounds) {
-    const [west, south, east, north] = layer.bounds;
-    const first = project([west, north]);
-    const last = project([east, south]);
-    if (first && last) context.drawImage(image, first[0], first[1], last[0] - first[0], last[1] - first[1]);
-  }
+  if (image && layer.bounds) drawImage(context, project, image, layer.bounds);
   if (!layer.geojson) return;
   context.beginPath();
   geoPath(project, context).pointRadius(3)(layer.geojson as Parameters<ReturnType<typeof geoPath>>[0]);
   context.strokeStyle = token('ink-3');
   context.lineWidth = 1;
   context.stroke();
+}
+
+/** An image whose rows are evenly spaced in latitude, strip by strip, as Mercator's are not. */
+function drawImage(context: Context, project: GeoProjection, image: HTMLImageElement, bounds: NonNullable<MapLayer['bounds']>): void {
+  const [west, south, east, north] = bounds;
+  const strips = Math.min(96, Math.max(1, Math.ceil((north - south) * 4)));
+  const rows = image.naturalHeight / strips;
+  for (let i = 0; i < strips; i += 1) {
+    const upper = project([west, north - ((north - south) * i) / strips]);
+    const lower = project([east, north - ((north - south) * (i + 1)) / strips]);
+    if (!upper || !lower) continue;
+    const [width, height] = [lower[0] - upper[0], lower[1] - upper[1]];
+    context.drawImage(image, 0, i * rows, image.naturalWidth, rows, upper[0], upper[1], width, height + (i + 1 < strips ? 0.5 : 0));
+  }
 }
 
 function drawGraticule(context: Context, project: GeoProjection, view: MapView, size: Size): void {

@@ -42,6 +42,9 @@ const AXIS_WIDTH = 58;
 const AXIS_HEIGHT = 26;
 const HEADROOM = 0.06;
 const LIMIT_SHADE = 0.09;
+const WIDTH = 1.5;
+/** That a trace goes up and down, in heights of its plot. */
+const MANY_HEIGHTS = 20;
 
 /** The colours of the page as they are now. */
 export function readInk(element: HTMLElement): Ink {
@@ -108,7 +111,7 @@ function options(settings: ChartSettings): uPlot.Options {
     series: [{}, ...Array.from({ length: settings.traces }, (_, index) => series(settings, index))],
     axes: [timeAxis(settings), valueAxis(settings)],
     hooks: {
-      drawClear: [(plot) => drawLimits(plot, settings)],
+      drawClear: [setWidths, (plot) => drawLimits(plot, settings)],
       setSelect: [(plot) => takeSelection(plot, settings)],
       setCursor: [(plot) => takeCursor(plot, settings)],
     },
@@ -119,7 +122,7 @@ function series(settings: ChartSettings, index: number): uPlot.Series {
   const paths = settings.stepped[index] ? uPlot.paths.stepped?.({ align: 1 }) : undefined;
   return {
     stroke: () => settings.ink().traces[index % 8] ?? 'gray',
-    width: 1.5,
+    width: WIDTH,
     spanGaps: false,
     ...(settings.dashed[index] ? { dash: [6, 4] } : {}),
     points: { show: (_plot, _series, first, last) => last - first < 40, size: 4 },
@@ -175,6 +178,33 @@ function takeSelection(plot: uPlot, settings: ChartSettings): void {
 function takeCursor(plot: uPlot, settings: ChartSettings): void {
   const left = plot.cursor.left;
   settings.onCursor(left === undefined || left < 0 ? null : plot.posToVal(left, 'x'));
+}
+
+/**
+ * A trace that goes up and down many times is drawn in hairlines, which are quick: a window that moves is drawn anew in
+ * each frame.
+ */
+function setWidths(plot: uPlot): void {
+  const { min, max } = plot.scales['y'] ?? {};
+  const height = Math.abs((max ?? 1) - (min ?? 0)) || 1;
+  plot.series.slice(1).forEach((one, index) => {
+    const [first, last] = plot.series[0]?.idxs ?? [0, 0];
+    const far = travel(plot.data[index + 1] ?? [], first, last) / height;
+    one.width = far > MANY_HEIGHTS ? 1 / uPlot.pxRatio : WIDTH;
+  });
+}
+
+/** How far a trace goes up and down between two places. */
+function travel(values: ArrayLike<number | null | undefined>, first: number, last: number): number {
+  let far = 0;
+  let before: number | undefined;
+  for (let place = first; place <= last; place += 1) {
+    const value = values[place];
+    if (typeof value !== 'number') continue;
+    if (before !== undefined) far += Math.abs(value - before);
+    before = value;
+  }
+  return far;
 }
 
 /** What lies beyond a limit is shaded, the limit itself is a line. */

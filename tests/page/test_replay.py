@@ -122,7 +122,10 @@ def test_leaving_the_view_ends_the_replay(page: Any, past: Past) -> None:
 
 
 def test_a_stretch_that_cannot_be_is_refused(page: Any, past: Past) -> None:
+    from playwright.sync_api import expect
+
     page.goto(f"{past.address}/#/vehicle/1/replay?begin={past.begin + 60:.0f}&end={past.begin:.0f}")
+    expect(page.get_by_role("textbox", name="From")).not_to_have_value("")
     page.get_by_role("button", name="Start the replay").click()
     page.get_by_text("The end must be after the beginning.").wait_for()
 

@@ -206,8 +206,8 @@ export class Desk {
   #tick(): void {
     if (this.window.kind !== 'live') return;
     const next = interval(this.window, this.source.now());
-    if (next.end === this.shown.end) return;
-    this.shown = next;
+    // While a replay is paused the window stands still, and what was under way still comes.
+    if (next.end !== this.shown.end) this.shown = next;
     this.#join();
     const now = performance.now();
     const isSettled = this.#settles !== null && now > this.#settles;

@@ -21,7 +21,7 @@ def view(page: Any, station: str) -> Any:
 
 def plan(view: Any) -> Any:
     """The plan as the browser keeps it."""
-    return json.loads(view.evaluate("localStorage.getItem('stommel.draft.plan.1')"))["plan"]
+    return json.loads(view.evaluate("localStorage.getItem('stommel-draft-plan.1')"))["plan"]
 
 
 def cell(view: Any, number: int, axis: str) -> Any:

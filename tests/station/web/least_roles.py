@@ -50,7 +50,6 @@ LEAST_ROLES: dict[tuple[str, str], str] = {
     ("GET", f"{V}/mission"): VIEWER,
     ("POST", f"{V}/mission"): HOLDER,
     ("POST", f"{V}/mission/roll-back"): HOLDER,
-    ("GET", f"{V}/missions/{{id}}"): VIEWER,
     # files
     ("GET", f"{V}/listing"): VIEWER,
     ("GET", f"{V}/transfers"): VIEWER,
@@ -62,6 +61,7 @@ LEAST_ROLES: dict[tuple[str, str], str] = {
     ("POST", "/api/transfers/{id}/resume"): PILOT,
     ("POST", "/api/transfers/{id}/cancel"): PILOT,
     ("POST", "/api/plans/validate"): VIEWER,
+    ("POST", "/api/plans/validate"): PILOT,
     ("POST", "/api/plans/open"): PILOT,
     ("GET", "/api/plan-templates"): VIEWER,
     ("GET", f"{V}/mission/plan"): VIEWER,

@@ -16,12 +16,12 @@ from typing import Any, NamedTuple
 
 from figures.registry import Measurement, figure
 from stommel.link.frames import frame_bytes
-from stommel.messages.mavlink import message_named, message_types
+from stommel.messages.mavlink import message_named
 
 BAR = 2000.0
 SECONDS, BROWSERS = 15.0, 20
-SETTLED = 120.0
-"""Time in which the station has stored what was sent [s]."""
+SETTLED, QUIET = 300.0, 10.0
+"""Time in which the station has stored what was sent, and after which no more comes [s]."""
 WATCHED = ["depth_m", "pitch_deg", "heading_deg", "ballast_ml", "voltage_v", "latitude_deg", "longitude_deg", "phase"]
 MESSAGES = (
     "HEARTBEAT", "GLIDER_STATE", "GLOBAL_POSITION_INT", "NAVIGATION_ESTIMATE", "GPS_RAW_INT", "VFR_HUD", "ATTITUDE",
@@ -69,8 +69,8 @@ def ingest(seconds: float, rate: float | None, browsers: int = BROWSERS) -> Inge
             memory.append(_memory(process.pid))
             sending.join(max(1.0, seconds / 100.0))
         sent = counts.get(timeout=10.0)
-        stored = _settled(Path(folder) / "archive.sqlite", sent)
-        took = time.monotonic() - began
+        took = _settled(Path(folder) / "archive.sqlite") - began
+        stored = _stored(Path(folder) / "archive.sqlite")
         memory.append(_memory(process.pid))
         cpu = _cpu(process.pid)
         ends.set()
@@ -100,7 +100,7 @@ def _station(folder: Path, port: int) -> Iterator[tuple[subprocess.Popen[str], s
         sys.executable, "-c", "from stommel.cli import main; main()", "station", "serve", "--folder", str(folder),
         "--link", f"tcp:127.0.0.1:{port}", "--unsigned", "--port", "0",
     ]  # fmt: skip
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)  # noqa: S603 - our own command
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     try:
         assert process.stdout is not None
         for line in process.stdout:
@@ -175,20 +175,28 @@ def _watch(page: str, browsers: int, ends: Any, counts: Any) -> None:
     counts.put(asyncio.run(all_of_them()))
 
 
-def _settled(archive: Path, wanted: int) -> int:
-    """Frames of the vehicle that are stored once no more come."""
+def _settled(archive: Path) -> float:
+    """When the last frame was stored, once none was for a while [s of the monotonic clock]."""
     import sqlite3  # noqa: PLC0415
 
-    numbers = {message_named(name).id for name in (*MESSAGES, "SYSTEM_TIME")} & set(message_types())
-    marks = ",".join(map(str, numbers))
-    ends = time.monotonic() + SETTLED
-    while True:
-        with sqlite3.connect(f"file:{archive}?mode=ro", uri=True) as database:
-            chosen = f"SELECT count(*) FROM frames WHERE direction = 'in' AND message_id IN ({marks})"  # noqa: S608
-            stored = int(database.execute(chosen).fetchone()[0])
-        if stored >= wanted or time.monotonic() > ends:
-            return stored
-        time.sleep(0.2)
+    last, changed, ends = -1, time.monotonic(), time.monotonic() + SETTLED
+    with sqlite3.connect(f"file:{archive}?mode=ro", uri=True) as database:
+        while time.monotonic() - changed < QUIET and time.monotonic() < ends:
+            chosen = "SELECT id FROM frames WHERE direction = 'in' ORDER BY id DESC LIMIT 1"
+            (newest,) = database.execute(chosen).fetchone() or (0,)
+            if newest != last:
+                last, changed = newest, time.monotonic()
+            time.sleep(0.05)
+    return changed
+
+
+def _stored(archive: Path) -> int:
+    """Frames of the vehicle that are stored."""
+    import sqlite3  # noqa: PLC0415
+
+    with sqlite3.connect(f"file:{archive}?mode=ro", uri=True) as database:
+        chosen = "SELECT count(*) FROM frames WHERE direction = 'in'"
+        return int(database.execute(chosen).fetchone()[0])
 
 
 def _memory(process: int) -> float:

@@ -19,7 +19,7 @@ CHANNELS = 4
 POINTS = 2000
 BEGIN = 19_675 * DAY
 """A midnight [s since 1970]."""
-SPANS = (60.0, 3600.0, 6 * 3600.0, 24.9 * 3600, 40 * 3600.0, 3.0 * DAY, 10.4 * DAY, 29.9 * DAY, 30.0 * DAY)
+SPANS = (60.0, 3600.0, 6 * 3600.0, 20.8 * 3600, 40 * 3600.0, 3.0 * DAY, 8.6 * DAY, 29.9 * DAY, 30.0 * DAY)
 PLACES = (0.0, 0.31, 0.77, 1.0)
 METHODS = ("minmax", "lttb")
 REPEATS = 3

@@ -35,8 +35,6 @@ OPENS = {
     "studies/study.py": "digest of ocean files that were read before",
     "studies/journal.py": "its lock",
     "studies/result.py": "what it has written itself",
-    "station/archive/quiet_opening.py": "the head of a database, before SQLite opens it",
-    "station/archive/telemetry_file.py": "writes",
 }
 
 

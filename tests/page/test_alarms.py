@@ -45,7 +45,9 @@ def test_an_alarm_comes_by_itself_sounds_and_is_acknowledged(page: Any, past: Pa
     page.get_by_role("textbox", name="Note").fill("Sensor drifts.\nWatching it.")
     page.get_by_role("dialog").get_by_role("button", name="Acknowledge").click()
     page.get_by_role("region", name=NEEDS).get_by_text("Sensor drifts.").wait_for()
-    told = next(one for one in httpx.get(f"{past.address}/api/alarms?vehicle=1").json() if "Depth above" in one["words"])
+    told = next(
+        one for one in httpx.get(f"{past.address}/api/alarms?vehicle=1").json() if "Depth above" in one["words"]
+    )
     assert (told["acknowledged_by"], told["note"], told["cleared"]) == ("local", "Sensor drifts.\nWatching it.", None)
 
     past.speaker.say("GLIDER_STATE", time_boot_ms=2, depth=20.0, alarms=0)

@@ -94,9 +94,7 @@ def test_a_ts_diagram_has_samples_and_lines_of_equal_density(page: Any, past: Pa
 
 
 @pytest.mark.parametrize(("words", "ending"), [("CSV", "csv"), ("CF NetCDF", "nc")])
-def test_what_is_downloaded_is_what_was_sampled(
-    page: Any, past: Past, tmp_path: Path, words: str, ending: str
-) -> None:
+def test_what_is_downloaded_is_what_was_sampled(page: Any, past: Past, tmp_path: Path, words: str, ending: str) -> None:
     opened(page, past, "dives").wait_for_selector("tbody tr td.number")
     with page.expect_download() as started:
         page.get_by_role("link", name=words).click()

@@ -152,11 +152,11 @@ CHANNELS: tuple[Channel, ...] = (
             20.0, -60.0, 150.0),
     Channel("battery_left_share", "share of the battery that is left", "", "energy", "SYS_STATUS",
             _unless("battery_remaining", -1, 0.01), 5.0, 0.0, 1.0),
-    Channel("pressure_dbar", "pressure of the sea", "dbar", "samples", _CTD, _of("pressure"), 600.0, -10.0, 12_000.0,
+    Channel("pressure_dbar", "pressure of the sea", "dbar", "samples", _CTD, _of("pressure"), 14_400.0, -10.0, 12_000.0,
             "sea_water_pressure"),
-    Channel("temperature_degc", "temperature of the sea", "degC", "samples", _CTD, _of("temperature"), 600.0, -5.0,
+    Channel("temperature_degc", "temperature of the sea", "degC", "samples", _CTD, _of("temperature"), 14_400.0, -5.0,
             50.0, "sea_water_temperature"),
-    Channel("conductivity_s_m", "conductivity of the sea", "S/m", "samples", _CTD, _of("conductivity"), 600.0, 0.0,
+    Channel("conductivity_s_m", "conductivity of the sea", "S/m", "samples", _CTD, _of("conductivity"), 14_400.0, 0.0,
             10.0, "sea_water_electrical_conductivity"),
     Channel("link_loss_share", "share of frames that were lost", "", "link", "-", _told, 10.0, 0.0, 1.0),
     Channel("link_round_trip_s", "round trip of the radio", "s", "link", "-", _told, 10.0, 0.0, 3600.0),
@@ -193,6 +193,6 @@ def told_by(received: Received) -> list[tuple[str, float]]:
     return found
 
 
-def is_stale(channel: Channel | None, age_s: float) -> bool:
-    """Whether a value of this age is older than it should be while the vehicle is heard."""
-    return channel is not None and age_s > STALE_AFTER * channel.period_s
+def is_stale(age_s: float, period_s: float) -> bool:
+    """Whether a value of this age is older than it should be while the vehicle is heard [s]."""
+    return age_s > STALE_AFTER * period_s

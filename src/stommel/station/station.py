@@ -172,6 +172,8 @@ class Station:
     def _close(self) -> None:
         lines: Sequence[VehicleLine] = list(self.vehicles.values())
         for line in lines:
+            line.end_soon()  # all at once
+        for line in lines:
             line.stop()
         if self._is_started:
             self.alarms.stop()

@@ -47,6 +47,13 @@ def test_the_migrations_make_the_tables_of_the_schema(archive: Archive) -> None:
         assert set(inspect(connection).get_table_names()) == {*metadata.tables, "alembic_version"}
 
 
+def test_samples_and_cells_lie_in_the_order_of_their_key(sqlite_archive: Archive) -> None:
+    """Alembic does not compare this, and long ranges are slow without it."""
+    query = text("SELECT name FROM sqlite_master WHERE type = 'table' AND sql LIKE '%WITHOUT ROWID%'")
+    with sqlite_archive.reading() as connection:
+        assert set(connection.execute(query).scalars()) == {"samples", "minutes", "ten_minutes", "ctd"}
+
+
 def test_the_version_is_the_last_of_the_migrations() -> None:
     assert ScriptDirectory(str(Path(migrating.__file__).with_name("migrations"))).get_heads() == [migrating.CURRENT]
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from stommel.errors import StommelError
 from stommel.station.station import Station
 from stommel.station.vehicles.missions import MissionError
 from tests.station.client import Client
@@ -118,3 +119,29 @@ def test_a_mission_on_its_way_when_the_station_stops_is_told_as_interrupted(tmp_
             vehicle.under_water = False
             until(lambda: ("in memory", "aboard") in states(again))
             assert vehicle.missions.files == [ORDERS.encode()]
+
+
+def test_a_mission_refused_under_water_is_sent_again_at_the_surface(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The vehicle's own words of refusal; one on a cable is heard under water. Oracle: what it holds in the end."""
+    from stommel.station.vehicles import mission_follower
+
+    monkeypatch.setattr(mission_follower, "AGAIN", 1.0)
+    dives = [True]
+    with served() as vehicle, station(tmp_path, vehicle.address) as found:
+        check = vehicle.missions.check
+
+        def checked() -> None:
+            if dives[0]:
+                raise StommelError("mission: the vehicle is under water; send it at the surface")
+            check()
+
+        vehicle.missions.check = checked  # type: ignore[method-assign]
+        client = Client(found)
+        row = upload(client, OTHER)
+        until(lambda: "under water" in client.get(f"/vehicles/1/missions/{row['id']}")["words"])
+        assert ("Another way", "waiting") in states(found) or ("Another way", "sending") in states(found)
+        dives[0] = False
+        until(lambda: ("Another way", "aboard") in states(found))
+        assert vehicle.missions.files[-1] == OTHER.encode()

@@ -1,7 +1,11 @@
 """Vehicles that are silent, and several of them. Oracle: what each said."""
 
+import time
 from pathlib import Path
 
+import pytest
+
+from stommel.station.channels import channel_named
 from stommel.station.clock import VehicleClock
 from tests.station.speaker import speaker, until
 from tests.station.stations import station
@@ -45,3 +49,32 @@ def test_several_vehicles_at_once_are_kept_apart(tmp_path: Path) -> None:
         until(lambda: not found.vehicles[2].status().is_open)
         one.say("GLIDER_STATE", time_boot_ms=500, depth=7.0)
         until(lambda: found.hub.values(1)["depth_m"][1] == 7.0, within=2.0)
+
+
+def test_a_restart_of_the_station_forgets_neither_the_dive_nor_the_way(tmp_path: Path) -> None:
+    with speaker() as vehicle:
+        with station(tmp_path, vehicle.address) as found:
+            vehicle.connect()
+            now = time.time()
+            vehicle.say("SYSTEM_TIME", time_unix_usec=int(now * 1e6), time_boot_ms=10_000_000)
+            vehicle.say("NAVIGATION_ESTIMATE", time_boot_ms=9_990_000, waypoint_distance=5000.0)
+            vehicle.say("GLIDER_STATE", time_boot_ms=9_991_000, phase=0)
+            vehicle.say("GLIDER_STATE", time_boot_ms=9_992_000, phase=1)
+            until(lambda: found.news[1].underway.left_surface)
+            before = found.news[1].underway.left_surface
+            assert before == pytest.approx(now - 8.0, abs=0.01)
+        with station(tmp_path, vehicle.address, start=False) as again:
+            assert again.news[1].underway.left_surface == pytest.approx(before, abs=1e-5)
+
+
+def test_a_slow_line_makes_no_value_stale_that_comes_as_it_can(tmp_path: Path) -> None:
+    with speaker() as vehicle, station(tmp_path, vehicle.address, start=False) as found:
+        channel = channel_named("depth_m")
+        assert channel is not None
+        ingest = found.vehicles[1].ingest
+        assert ingest.period_of(channel) == channel.period_s
+        for k in range(100):
+            ingest._count("GLIDER_STATE", 1000.0 + 8.0 * k)
+        assert ingest.period_of(channel) == pytest.approx(8.0, rel=0.01)
+        ingest._count("GLIDER_STATE", 1e6)  # a silence
+        assert ingest.period_of(channel) == pytest.approx(8.0, rel=0.01)

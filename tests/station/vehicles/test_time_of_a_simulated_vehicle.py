@@ -46,5 +46,13 @@ def test_a_vehicle_that_never_tells_its_clock_is_kept_after_a_while() -> None:
     """Without a fix it may never know; then the station's own time is better than nothing."""
     found = ingest()
     found.hear(b"a", [depth(10.0, 12.0)], 1.8e9)
-    found.hear(b"b", [depth(10.0 + UNSET_FOR, 13.0)], 1.8e9 + UNSET_FOR + 1.0)
+    found.hear(b"b", [depth(11.0 + UNSET_FOR, 13.0)], 1.8e9 + UNSET_FOR + 1.0)
     assert [value for key, _, value in found.samples if key == "depth_m"] == [12.0, 13.0]
+
+
+def test_a_slow_simulation_is_not_taken_for_a_vehicle_without_a_clock() -> None:
+    """On a busy machine an hour of ours may be a minute of the vehicle's; its first fix still comes in time."""
+    found = ingest()
+    found.hear(b"a", [depth(10.0, 12.0)], 1.8e9)
+    found.hear(b"b", [depth(60.0, 13.0)], 1.8e9 + 4.0 * UNSET_FOR)
+    assert found.samples == []

@@ -12,6 +12,7 @@ interface Kept {
 }
 
 const CHECK_AFTER_MS = 350;
+const CHECK_AGAIN_MS = 5000;
 
 function isKept(value: unknown): value is Kept {
   return isRecord(value) && isPlan(value.plan) && isRecord(value.texts);
@@ -166,7 +167,8 @@ export class Desk {
       this.unchecked = '';
     } catch (error) {
       if (number !== this.asked) return;
-      this.unchecked = sentence(error);
+      this.unchecked = sentence(error).replace(/\.$/, '');
+      this.timer = setTimeout(() => void this.checkNow(), CHECK_AGAIN_MS);
     }
     this.checking = false;
   }

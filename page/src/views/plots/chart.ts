@@ -43,7 +43,8 @@ const AXIS_HEIGHT = 26;
 const HEADROOM = 0.06;
 const LIMIT_SHADE = 0.09;
 const WIDTH = 1.5;
-const MANY_POINTS = 600;
+/** That a trace goes up and down, in heights of its plot. */
+const MANY_HEIGHTS = 20;
 
 /** The colours of the page as they are now. */
 export function readInk(element: HTMLElement): Ink {
@@ -179,11 +180,31 @@ function takeCursor(plot: uPlot, settings: ChartSettings): void {
   settings.onCursor(left === undefined || left < 0 ? null : plot.posToVal(left, 'x'));
 }
 
-/** Many points are drawn in hairlines, which are quick: a window that moves is drawn anew in each frame. */
+/**
+ * A trace that goes up and down many times is drawn in hairlines, which are quick: a window that moves is drawn anew in
+ * each frame.
+ */
 function setWidths(plot: uPlot): void {
-  const [first, last] = plot.series[0]?.idxs ?? [0, 0];
-  const width = last - first > MANY_POINTS ? 1 / uPlot.pxRatio : WIDTH;
-  for (const one of plot.series.slice(1)) one.width = width;
+  const { min, max } = plot.scales['y'] ?? {};
+  const height = Math.abs((max ?? 1) - (min ?? 0)) || 1;
+  plot.series.slice(1).forEach((one, index) => {
+    const [first, last] = plot.series[0]?.idxs ?? [0, 0];
+    const far = travel(plot.data[index + 1] ?? [], first, last) / height;
+    one.width = far > MANY_HEIGHTS ? 1 / uPlot.pxRatio : WIDTH;
+  });
+}
+
+/** How far a trace goes up and down between two places. */
+function travel(values: ArrayLike<number | null | undefined>, first: number, last: number): number {
+  let far = 0;
+  let before: number | undefined;
+  for (let place = first; place <= last; place += 1) {
+    const value = values[place];
+    if (typeof value !== 'number') continue;
+    if (before !== undefined) far += Math.abs(value - before);
+    before = value;
+  }
+  return far;
 }
 
 /** What lies beyond a limit is shaded, the limit itself is a line. */

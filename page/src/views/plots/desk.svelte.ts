@@ -7,6 +7,8 @@ import { fixed, interval, isSame, live, panned, spanOf, type Interval, type Time
 
 const TICK_MS = 100;
 const ASK_AGAIN_MS = 30_000;
+/** After so long a new subscription is heard for certain. */
+const SETTLED_MS = 1500;
 const WAYS_BACK = 50;
 const PENDING_LIMIT = 20_000;
 
@@ -28,6 +30,7 @@ export class Desk {
   #pendingCount = 0;
   #isWhole = false;
   #isFirst = false;
+  #settles: number | null = null;
   #asked = 0;
   #timer: ReturnType<typeof setInterval>;
   #back = $state.raw<readonly TimeWindow[]>([]);
@@ -160,19 +163,24 @@ export class Desk {
     const listener: LiveListener = {
       onSamples: (samples) => this.#hear(samples),
       onGap: () => {
-        this.#isFirst = true;
+        this.#begins();
         this.#ask();
       },
       onRefusal: (reason) => { this.failure = reason; },
     };
-    this.#isFirst = true;
+    this.#begins();
     this.#unfollow = this.source.follow(this.#channels, listener);
+  }
+
+  /** What comes between a question and the begin of a subscription is asked for after it has begun. */
+  #begins(): void {
+    this.#isFirst = true;
+    this.#settles = performance.now() + SETTLED_MS;
   }
 
   #hear(samples: ReadonlyMap<string, Samples>): void {
     for (const part of samples.values()) this.#pendingCount += part.t.length;
     this.#pending.push(samples);
-    // What came between the question and the first of these is in the archive by now.
     if (this.#isFirst) this.#ask();
     this.#isFirst = false;
     if (this.#pendingCount <= PENDING_LIMIT) return;
@@ -200,7 +208,10 @@ export class Desk {
     if (next.end === this.shown.end) return;
     this.shown = next;
     this.#join();
+    const now = performance.now();
+    const isSettled = this.#settles !== null && now > this.#settles;
+    if (isSettled) this.#settles = null;
     // Points pile up: from time to time the archive reduces them again.
-    if (performance.now() - this.#asked > ASK_AGAIN_MS) this.#ask();
+    if (isSettled || now - this.#asked > ASK_AGAIN_MS) this.#ask();
   }
 }

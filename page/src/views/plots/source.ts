@@ -29,6 +29,8 @@ export interface PlotSource {
   follow(channels: readonly string[], listener: LiveListener): () => void;
   limit(channel: string): Limit | null;
   period_s(channel: string): number | null;
+  /** How far behind its present a source may be heard, s of its own time: one of a person's seconds. */
+  lag_s(): number;
 }
 
 /** The station: the archive of a vehicle, and the live socket of it or of a replay of it. */
@@ -69,6 +71,10 @@ export class StationSource implements PlotSource {
 
   limit(channel: string): Limit | null {
     return this.limits.get(channel) ?? null;
+  }
+
+  lag_s(): number {
+    return untrack(() => clock.speed(this.liveKey));
   }
 
   period_s(channel: string): number | null {

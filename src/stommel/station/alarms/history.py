@@ -38,7 +38,7 @@ class History:
         before: int | None = None,
         limit: int = 200,
     ) -> list[Alarm]:
-        """Alarms, the newest first: of a vehicle and of the station itself, open or not, acknowledged or not, before the one of a number.
+        """Alarms of a vehicle and of the station itself, or all; the newest first, before the one of a number.
 
         An alarm that is not there has none before it.
         """

@@ -29,7 +29,7 @@ MOST_RAW = 2_000_000
 LONGEST_PERIOD = 366 * 86400.0
 """Of a channel [s]."""
 
-_READ_AT_ONCE = 150_000
+_READ_AT_ONCE = 80_000
 """Samples that are read to draw a window finely; of more, the minutes are."""
 _FEWEST_MINUTES = 120
 """A window of fewer minutes is drawn from the samples anyway."""
@@ -109,9 +109,9 @@ def read_series(reader: ChannelReader, window: Window) -> Series:
 def _level(reader: ChannelReader, window: Window) -> tuple[int, int]:
     """How many levels of cells to use, and the width of buckets, of which each holds whole cells.
 
-    A bucket of less than one and a half cells would have to grow too much to hold whole ones.
+    A bucket of less than a cell and a quarter would have to grow too much to hold whole ones.
     """
-    level = sum(2 * window.width_us >= 3 * level.width_us for level in LEVELS)
+    level = sum(4 * window.width_us >= 5 * level.width_us for level in LEVELS)
     if level == 0 and _is_fine(reader, window):
         return 0, window.width_us
     level = max(level, 1)

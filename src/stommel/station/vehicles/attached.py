@@ -48,6 +48,7 @@ class VehicleNews:
         self._settings, self._archive, self._hub, self._extra = settings, archive, hub, extra
         self.vehicle = settings.vehicle
         self.underway = Underway()
+        self.underway.restore(archive, self.vehicle)
         self._dives: deque[DiveRow] = deque(last_dives(archive, self.vehicle), maxlen=MOST_DIVES)
         self._told: dict[str, Any] = {}
         self._due = 0.0

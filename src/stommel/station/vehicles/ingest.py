@@ -10,7 +10,7 @@ from stommel.link.shore.heard import Heard
 from stommel.link.statistics import LinkStatistics
 from stommel.messages.mavlink import Fields
 from stommel.station.archive.rows import Batch, CtdRow, DiveRow, FrameRow
-from stommel.station.channels import told_by
+from stommel.station.channels import Channel, channels_of, told_by
 from stommel.station.clock import FIRST, LAST, VehicleClock
 
 MOST_FRAMES = 50_000
@@ -20,7 +20,9 @@ LINK_EVERY = 10.0
 NEAR = 60.0
 """A time that a message tells is believed if it is so near to when it came [s]."""
 UNSET_FOR = 900.0
-"""A simulated vehicle that is heard for so long without telling its clock gets ours [s]."""
+"""A simulated vehicle that has not told its clock for so long gets ours [s by its time since boot]."""
+MOST_PERIODS, _WEIGHT = 10.0, 0.1
+"""Longer intervals are silences, not intervals; weight of the last in the mean."""
 TICK = 2e-6
 """Between two times that the archive, which has whole microseconds, keeps apart [s]."""
 
@@ -47,9 +49,11 @@ class Ingest:
         self._boot_utc: float | None = None
         """UTC of the vehicle at its time 0 since boot."""
         self._last_time: dict[str, float] = {}
+        self._intervals: dict[str, tuple[float, float]] = {}
+        """When each message came last, and its mean interval [s]."""
         self._early: list[Early] = []
-        self._first_at: float | None = None
-        """When a message came first while the clock was not set."""
+        self._first_boot = math.inf
+        """Its time since boot when it was heard first, while its clock was not set [s]."""
         self._link_at = -math.inf
         self._has_come = False
         self.frames: list[FrameRow] = []
@@ -73,9 +77,7 @@ class Ingest:
         if not clock.is_set:
             if data:
                 self._early.append((data, accepted, t))
-            if self._first_at is None and accepted:
-                self._first_at = t
-            if self._first_at is not None and t - self._first_at > UNSET_FOR:
+            if self._is_long_unset(accepted):
                 clock.hear(min(max(t, FIRST), LAST), t)  # without a fix it may never know
             if not clock.is_set:
                 return
@@ -84,6 +86,12 @@ class Ingest:
         if not self._early or self._early[-1][1] is not accepted:
             self._take(data, accepted, t)
         self._early = []
+
+    def _is_long_unset(self, accepted: Sequence[Received]) -> bool:
+        """Whether the vehicle was heard for long by its own time, of which a slow simulation has less than we."""
+        told = [boot for received in accepted if (boot := _since_boot(received)) > 0.0]
+        self._first_boot = min([self._first_boot, *told])
+        return any(boot - self._first_boot > UNSET_FOR for boot in told)
 
     def say(self, data: bytes, t: float) -> None:
         """Take bytes that went."""
@@ -148,10 +156,23 @@ class Ingest:
             text = self._heard.texts.popleft()
             self.texts.append((self._clock.of_link(text.t), text.severity, text.words))
 
+    def period_of(self, channel: Channel) -> float:
+        """Time between two values of a channel, as they come: a slow line brings them less often [s]."""
+        _, interval = self._intervals.get(channel.message, (0.0, 0.0))
+        return max(channel.period_s, interval)
+
+    def _count(self, name: str, at: float) -> None:
+        last, interval = self._intervals.get(name, (at, 0.0))
+        told = channels_of(name)
+        if told and 0.0 < at - last <= MOST_PERIODS * told[0].period_s:
+            interval += _WEIGHT * (at - last - interval)
+        self._intervals[name] = at, interval
+
     def _take_message(self, received: Received, at: float) -> None:
         self.came += 1
         self.heard_at = at
         name, values = received.name, received.values
+        self._count(name, at)
         if name == "CTD_SAMPLE":
             self._take_ctd(values, at)
         elif name == "DIVE_SUMMARY":
@@ -193,6 +214,12 @@ class Ingest:
             t = at
         self._last_time[name] = t
         return t
+
+
+def _since_boot(received: Received) -> float:
+    """Time of the vehicle since its boot that a message tells [s]; 0 if it tells none."""
+    told = received.values.get("time_boot_ms", 0)
+    return 1e-3 * told if isinstance(told, int) else 0.0
 
 
 def _row(frame: RawFrame, direction: str, t: float) -> FrameRow:

@@ -1,22 +1,22 @@
 """The line to one vehicle: a thread that hears, keeps, and only then answers."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import ExitStack
 from pathlib import Path
 from queue import Empty, Full, Queue
 from threading import Event, Thread
-from typing import NamedTuple, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 from stommel.link.shore.shore_end import ShoreEnd
-from stommel.link.statistics import LinkStatistics
 from stommel.link.transports.opening import open_transport
-from stommel.link.transports.transport import Transport, TransportError, TransportState
+from stommel.link.transports.transport import READ_AT_ONCE, Transport, TransportError
 from stommel.station.archive import Archive, ArchiveError, ArchiveRequestError, Batch
 from stommel.station.settings import VehicleSettings
 from stommel.station.vehicles.abort_only import AbortOnly
 from stommel.station.vehicles.ingest import Ingest
+from stommel.station.vehicles.line_status import LineStatus, complaint, status_of
 from stommel.station.vehicles.opening import VehicleError, open_end
 
 BUSY, QUIET = 0.01, 0.05
@@ -32,28 +32,10 @@ STATUS_EVERY = 0.25
 AHEAD = 65_536
 """Bytes that may wait in the transport."""
 MOST_REQUESTS = 1000
+MOST_READS = 4
+"""Of one look: a disk that is slow for a moment shall not make a line slow."""
 
 T = TypeVar("T")
-
-
-class LineStatus(NamedTuple):
-    """How the line to a vehicle is; times are those of the vehicle [s since 1970]."""
-
-    heard: bool
-    since: float | None
-    """Since when it is heard without a pause."""
-    last_contact: float | None
-    transport: str
-    """Address."""
-    is_open: bool
-    reason: str
-    """Why the vehicle is not heard, in words; empty while it is."""
-    archive: str
-    """Why what comes is not kept, in words; empty while it is."""
-    waiting: int
-    """Frames that the archive does not have yet."""
-    statistics: LinkStatistics
-    notes: tuple[str, ...]
 
 
 class Follower(Protocol):
@@ -122,10 +104,14 @@ class VehicleLine:
         """Begin to listen."""
         self._thread.start()
 
-    def stop(self, within: float = 5.0) -> None:
-        """End, with all that came stored if the archive takes it."""
+    def end_soon(self) -> None:
+        """Begin to end; `stop` waits for it."""
         self._ends.set()
         self._wake.set()
+
+    def stop(self, within: float = 5.0) -> None:
+        """End, with all that came stored if the archive takes it."""
+        self.end_soon()
         if self._thread.ident is not None:
             self._thread.join(within)
         self._held.close()
@@ -153,17 +139,10 @@ class VehicleLine:
         return self._status
 
     def _seen(self, t: float) -> LineStatus:
-        presence = self.end.presence.peers.get(self.end.vehicle)
-        heard = presence is not None and presence.is_heard(t)
-        since = self.clock.of_link(presence.since) if presence is not None and heard else None
-        transport = self._transport
-        notes = [*self.end.session.notes, *self.end.commands.notes]
-        if self.failure:
-            notes.append(self.failure)
-        return LineStatus(
-            heard, since, self.ingest.heard_at, self.settings.link if transport is None else transport.name,
-            transport is not None and transport.state is TransportState.OPEN, "" if heard else self._complaint(t),
-            self.archive_reason, len(self.ingest.frames), self.end.link(t), tuple(notes),
+        reason = complaint(self.end, self._transport, self._transport_reason, self.ingest.came, t)
+        return status_of(
+            self.end, self.clock, self.ingest, self._transport, reason, self.settings.link, self.archive_reason,
+            self.failure, t,
         )  # fmt: skip
 
     @property
@@ -187,7 +166,7 @@ class VehicleLine:
     def _look(self) -> None:
         real, t = time.monotonic(), self.clock.link_now()
         transport = self._opened(real)
-        data = b"" if transport is None or self.ingest.is_full else transport.read(real)
+        data = b"" if transport is None or self.ingest.is_full else _read(transport, real)
         if data:
             self._lively = real + GOES_ON
         self.ingest.hear(data, self.end.session.take(data, t), t)
@@ -303,22 +282,13 @@ class VehicleLine:
         while not self._requests.empty():
             self._requests.get_nowait()[1].cancel()
 
-    def _complaint(self, t: float) -> str:
-        """Why the vehicle is not heard."""
-        end, transport = self.end, self._transport
-        if transport is None:
-            return self._transport_reason
-        if transport.reason:
-            return f"{transport.name}: {transport.reason}"
-        if told := end.session.line.complaint(t):
-            return told
-        if end.guard.refusals.by_reason:
-            return "; ".join(end.guard.status)
-        others: Sequence[int] = sorted({system for system, _ in list(end.session.peers())} - {self.vehicle})
-        if others and self.ingest.came == 0:
-            return f"heard is {', '.join(f'vehicle {system}' for system in others)}; the number of this one is another"
-        if self.ingest.came:
-            return "nothing comes; it is under water, out of reach, or its radio is off"
-        if end.session.versions:
-            return end.session.versions
-        return "nothing came yet; it is under water, out of reach, or its radio is off"
+
+def _read(transport: Transport, real: float) -> bytes:
+    """What has come, as far as one look takes it."""
+    found = transport.read(real)
+    if len(found) < READ_AT_ONCE:
+        return found
+    parts = [found]
+    while len(parts) < MOST_READS and len(parts[-1]) == READ_AT_ONCE:
+        parts.append(transport.read(real))
+    return b"".join(parts)

@@ -13,6 +13,7 @@ from stommel.link.files.folder_disk import FolderDisk
 from stommel.link.files.progress import State
 from stommel.link.missions.orders_client import OrdersOutcome
 from stommel.link.missions.port import HeldOrders
+from stommel.messages.mavlink import enumeration
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.mission_rows import (
     ABOARD,
@@ -22,6 +23,7 @@ from stommel.station.vehicles.mission_rows import (
     REFUSED,
     REPLACED,
     SENDING,
+    WAITING,
     MissionRow,
     MissionRows,
 )
@@ -36,6 +38,21 @@ ABOARD_PATH = "missions/active.orders"
 STOPPED = "the station stopped while it was on its way; what is aboard is old or new, whole: look, and send it again"
 
 
+AGAIN = 10.0
+"""Between two tries of what was refused under water [s]."""
+UNDER_WATER = "send it at the surface"
+"""How the vehicle refuses a mission under water."""
+_PHASES = frozenset(
+    enumeration("GLIDER_PHASE")[f"GLIDER_PHASE_{name}"] for name in ("DESCENT", "INFLECTION", "ASCENT", "DRIFT")
+)
+
+
+def is_under_water(line: VehicleLine) -> bool:
+    """Whether the vehicle has told last that it dives."""
+    said = line.end.heard.last.get("GLIDER_STATE")
+    return said is not None and said.values["phase"] in _PHASES
+
+
 @dataclass
 class Task:
     """One request to the vehicle."""
@@ -46,6 +63,8 @@ class Task:
     row: MissionRow | None = None
     """Of an upload."""
     within: float = ASK_WITHIN
+    until: float | None = None
+    """When its time is over, by the clock of the link [s]; set when it is first looked at."""
 
 
 class MissionFollower:
@@ -73,6 +92,8 @@ class MissionFollower:
         self.words = "the vehicle has not been asked yet"
         """Why it is not known which orders it holds, or what the last request came to."""
         self._is_new = True
+        self._again_at = float("-inf")
+        """When what was refused under water is tried again [s]."""
         self._asked_for: object = ()
         """Number of the mission that the vehicle told when it was asked last; () before."""
         self._fetch: tuple[Download, FolderDisk, bytes] | None = None
@@ -103,11 +124,11 @@ class MissionFollower:
                 self._rows.change(row.id, INTERRUPTED, STOPPED, line.clock.now())
             self._is_new = False
         if self.current is not None and (outcome := line.end.orders.outcome) is not None:
-            self._finish(line, self.current, outcome)
-            self.current = None
+            task, self.current = self.current, None
+            self._finish(line, task, outcome, t)
         if self.current is None and not self._queue and line.end.is_heard(t):
             self._ask_if_new(line)
-        if self.current is None and self._queue:
+        if self.current is None and self._queue and not self._waits(line, self._queue[0], t):
             self._begin(line, self._queue.popleft(), t)
         self._look_at_fetch(line)
 
@@ -119,24 +140,32 @@ class MissionFollower:
             self._asked_for = number
             self._queue.append(Task("ask"))
 
+    def _waits(self, line: VehicleLine, task: Task, t: float) -> bool:
+        """Whether a request rests until the vehicle, which takes no other mission under water, is at the surface."""
+        task.until = t + task.within if task.until is None else task.until
+        if task.kind == "ask" or t >= task.until:
+            return False
+        return t < self._again_at or is_under_water(line)
+
     def _begin(self, line: VehicleLine, task: Task, t: float) -> None:
         orders = line.end.orders
+        within = task.within if task.until is None else max(task.until - t, 1.0)
         if task.kind == "roll-back" and (self.held is None or not self.held.previous):
             self.words = "the vehicle holds no orders before the present ones"
             self._tell(line.vehicle, None)
             return
         if task.row is not None:
             self._rows.change(task.row.id, SENDING, "on its way", line.clock.now())
-            orders.send(task.row.orders.encode(), t, task.within)
+            orders.send(task.row.orders.encode(), t, within)
             self._tell(line.vehicle, task.row.id)
         elif task.kind == "roll-back":
             assert self.held is not None
-            orders.roll_back(self.held.previous, t, task.within)
+            orders.roll_back(self.held.previous, t, within)
         else:
-            orders.ask(t, task.within)
+            orders.ask(t, within)
         self.current = task
 
-    def _finish(self, line: VehicleLine, task: Task, outcome: OrdersOutcome) -> None:
+    def _finish(self, line: VehicleLine, task: Task, outcome: OrdersOutcome, t: float) -> None:
         now, words = line.clock.now(), "; ".join(outcome.words)
         if task.kind == "ask":
             if outcome.held is not None:
@@ -144,9 +173,19 @@ class MissionFollower:
             else:
                 self.words, self._asked_for = words, ()
             return
+        if outcome.ending is Ending.REFUSED and words.endswith(UNDER_WATER) and t < (task.until or t):
+            self._again_at = t + AGAIN
+            self._queue.appendleft(task)
+            if task.row is not None:
+                self._rows.change(task.row.id, WAITING, "the vehicle is under water; sent at the surface", now)
+                self._tell(line.vehicle, task.row.id)
+            return
         if task.row is not None:
             if outcome.ending is Ending.WHOLE:
                 self._be_aboard(line, task.row, now, "taken by the vehicle, whole")
+                if self.held is not None:  # orders before, still being fetched, are not aboard any more
+                    new = bytes.fromhex(task.row.sha256)
+                    self.held = self.held._replace(name=task.row.name, sha256=new, previous=self.held.sha256)
             else:
                 state = REFUSED if outcome.ending is Ending.REFUSED else FAILED
                 self._rows.change(task.row.id, state, words, now)

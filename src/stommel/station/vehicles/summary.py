@@ -8,7 +8,7 @@ from stommel.compilation import plain
 from stommel.geometry.earth import metres_per_radian
 from stommel.messages.mavlink import entry_words
 from stommel.station.archive import DiveRow
-from stommel.station.vehicles.line import LineStatus
+from stommel.station.vehicles.line_status import LineStatus
 
 LAST_DIVES = 3
 """Whose mean duration tells when the vehicle surfaces next."""

@@ -1,13 +1,20 @@
 """What only the course of values tells: when this dive began, and how fast the vehicle comes closer to its waypoint."""
 
+import math
 from collections import deque
 from collections.abc import Sequence
 
 from stommel.messages.mavlink import entry_words
+from stommel.station.archive import Archive
 from stommel.station.vehicles.summary import AT_SURFACE, Approach
 
 LEAST_TIME = 120.0
 """Over which an approach is measured [s]."""
+
+LOOK_BACK = 12 * 3600.0
+"""Of what is looked at again after a restart [s]."""
+MOST_POINTS = 20_000
+WATCHED = ("waypoint", "waypoint_distance_m", "phase")
 
 Sample = tuple[str, float, float]
 
@@ -48,10 +55,30 @@ class Underway:
             self.left_surface = None
         self._afloat = afloat
 
+    def restore(self, archive: Archive, vehicle: int) -> None:
+        """Look again at the last hours that the archive has, so that a restart of the station forgets nothing.
+
+        Raises
+        ------
+        ArchiveError
+            The archive fails.
+        """
+        latest = [archive.latest(vehicle).get(key, (0.0, 0.0))[0] for key in WATCHED]
+        end = max(latest)
+        if end <= 0.0:
+            return
+        found: list[Sample] = []
+        for key in WATCHED:
+            series = archive.series(vehicle, key, max(0.0, end - LOOK_BACK), end, MOST_POINTS)
+            pairs = zip(series.t.tolist(), series.value.tolist(), strict=True)
+            found += [(key, t, value) for t, value in pairs if not math.isnan(value)]
+        self.take(sorted(found, key=lambda sample: sample[1]))
+
     @property
     def approach(self) -> Approach | None:
         """How fast the waypoint comes closer since the last dive began; None where too little was seen."""
-        if not self._begins or self._distance is None:
+        begins, distance = list(self._begins), self._distance  # others ask while the line goes on
+        if not begins or distance is None:
             return None
-        (began, before), (t, now) = self._begins[0], self._distance
+        (began, before), (t, now) = begins[0], distance
         return Approach(began, (before - now) / (t - began)) if t - began >= LEAST_TIME else None

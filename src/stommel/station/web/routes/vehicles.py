@@ -248,8 +248,10 @@ def show_latest(_user: Viewer, line: Line, station: TheStation) -> Latest:
     values = {}
     for key, (t, value) in station.hub.values(line.vehicle).items():
         channel = channel_named(key)
-        age, period = max(0.0, now - t), 0.0 if channel is None else channel.period_s
-        values[key] = LatestValue(t=t, value=value, age_s=age, period_s=period, stale=is_stale(channel, age))
+        if channel is None:
+            continue
+        age, period = max(0.0, now - t), line.ingest.period_of(channel)
+        values[key] = LatestValue(t=t, value=value, age_s=age, period_s=period, stale=is_stale(age, period))
     return Latest(now=now, values=values)
 
 

@@ -1,8 +1,7 @@
 """The tables of the first version."""
 
-from alembic import op
-
-from stommel.station.archive.schema import metadata
+from stommel.station.archive.migrations.first_version.doings import make_doings
+from stommel.station.archive.migrations.first_version.telemetry import make_telemetry
 
 revision = "stommel_0001"
 down_revision = None
@@ -12,4 +11,5 @@ depends_on = None
 
 def upgrade() -> None:
     """Make all tables."""
-    metadata.create_all(op.get_bind())
+    make_telemetry()
+    make_doings()

@@ -16,6 +16,7 @@ from typer.main import get_command
 from stommel.cli.app import app
 from stommel.cli.sitl import FLY
 from stommel.control.orders_tables import OrdersFile
+from stommel.plans.plan import StationPlan
 from stommel.simulation.scenario.scenario_file import ScenarioFile
 from stommel.vehicle.schema import VehicleFile
 from tests.conftest import Command
@@ -144,7 +145,7 @@ def keys_of(model: type[BaseModel], name: str = "") -> Iterator[str]:
 
 
 def test_every_dotted_key_of_a_file_exists() -> None:
-    keys = {*keys_of(VehicleFile), *keys_of(ScenarioFile), *keys_of(OrdersFile)}
+    keys = {*keys_of(VehicleFile), *keys_of(ScenarioFile), *keys_of(OrdersFile), *keys_of(StationPlan)}
     tables = {key.split(".")[0] for key in keys if "." in key}
     written = named(rf"`\[*((?:{'|'.join(tables)})(?!\.toml)(?:\.[a-z_]\w*)+)", PAGES)
     assert len(written) > 10

@@ -27,6 +27,8 @@ ARGUMENTS = [
     "--enable-precise-memory-info",
 ]  # fmt: skip
 AXE = ROOT / "page" / "node_modules" / "axe-core" / "axe.min.js"
+SPEED = "60" if "STOMMEL_PAGE_SOAK" in os.environ else "20"
+"""Of the simulated glider, times real time."""
 Screenshot = Callable[[str], Path]
 
 
@@ -93,7 +95,7 @@ def station(built: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[s
     """Address of the real station with a simulated glider beside it, as `make run` starts it."""
     address = f"http://127.0.0.1:{(port := free_port())}"
     folder = tmp_path_factory.mktemp("station") / "flight"
-    for _ in serve(station_command(folder, port, "--sitl", "east_china_sea", "--speed", "20"), address):
+    for _ in serve(station_command(folder, port, "--sitl", "east_china_sea", "--speed", SPEED), address):
         heard(address)
         yield address
 
@@ -126,7 +128,7 @@ def page(browser, request: pytest.FixtureRequest):
     """A page whose browser has seen the tour; what it throws fails the test. Options of the context by parameter."""
     options = getattr(request, "param", {})
     context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce", **options})
-    context.add_init_script("localStorage.setItem('stommel.tour', 'done')")
+    context.add_init_script("localStorage.setItem('stommel-tour', 'done')")
     tab = context.new_page()
     tab.set_default_timeout(20_000)
     thrown: list[str] = []

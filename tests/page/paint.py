@@ -18,7 +18,8 @@ def useful_paint_s(browser: Any, station: str) -> float:
     try:
         tab = context.new_page()
         tab.goto(f"{station}/#/fleet")
-        tab.wait_for_function("window.usefulAt !== undefined")
+        tab.locator("article.strip h2").first.wait_for()
+        tab.wait_for_timeout(100)  # for the frame; a function to wait for would be evaluated, which the page forbids
         return float(tab.evaluate("window.usefulAt")) / 1e3
     finally:
         context.close()

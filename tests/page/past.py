@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stommel.station.archive import Archive, Batch, CtdRow, DiveRow
+from stommel.archive import Archive, Batch, CtdRow, DiveRow
 from tests.page.conftest import free_port, serve
 from tests.station.speaker import Speaker, speaker
 
@@ -73,8 +73,9 @@ def fill(database: str, begin: float, end: float) -> None:
 
 
 def _dive(number: int, t: float) -> DiveRow:
-    places = [values(key, t + half * DIVE) for half in (0, 1) for key in ("latitude_deg", "longitude_deg")]
-    return DiveRow(number, t, t + DIVE, *places, 200.0, 0.1, 0.2, 12_000.0)
+    first, last = values("latitude_deg", t), values("latitude_deg", t + DIVE)
+    east = values("longitude_deg", t)
+    return DiveRow(number, t, t + DIVE, first, east, last, east, 200.0, 0.1, 0.2, 12_000.0)
 
 
 def _ctd(dive: DiveRow) -> list[CtdRow]:

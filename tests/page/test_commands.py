@@ -75,7 +75,7 @@ def test_a_waiting_command_counts_down_by_the_clock_of_the_vehicle_and_is_taken_
     """Issue: browser clock wrong. The browser believes it is 2036; the countdown is the station's. Oracle: the API."""
     context = browser.new_context(viewport={"width": 1440, "height": 900})
     context.add_init_script(
-        "localStorage.setItem('stommel.tour', 'done'); const late = 3.2e11; const now = Date.now.bind(Date);"
+        "localStorage.setItem('stommel-tour', 'done'); const late = 3.2e11; const now = Date.now.bind(Date);"
         "Date.now = () => now() + late;"
     )
     page = context.new_page()
@@ -119,7 +119,7 @@ def test_two_pilots_one_holds_command_the_other_takes_over_with_a_reason(
     """Issue: one pilot holds command of a vehicle at a time, hand-over visible."""
     first, second = (browser.new_context(viewport={"width": 1280, "height": 800}) for _ in range(2))
     for context in (first, second):
-        context.add_init_script("localStorage.setItem('stommel.tour', 'done')")
+        context.add_init_script("localStorage.setItem('stommel-tour', 'done')")
     ling, max_ = first.new_page(), second.new_page()
     sign_in(ling, manned, "ling", "vehicle/1/commands")
     sign_in(max_, manned, "max", "vehicle/1/commands")

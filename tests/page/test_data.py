@@ -105,7 +105,7 @@ def test_what_is_downloaded_is_what_was_sampled(page: Any, past: Past, tmp_path:
     if ending == "nc":
         with xr.open_dataset(file) as found:
             assert found.attrs["Conventions"].startswith("CF-1")
-            warm, depth = found["temperature"].values, found["depth"].values
+            warm, depth = found["temperature"].values.tolist(), found["depth"].values.tolist()
     else:
         text = [line for line in file.read_text().splitlines() if not line.startswith("#")]
         rows = list(csv.DictReader(io.StringIO("\n".join(text))))

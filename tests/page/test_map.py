@@ -29,6 +29,7 @@ def test_keys_move_and_zoom_the_map(sea: Any) -> None:
     before, bar = place(sea), sea.locator(BAR).inner_text()
     for _ in range(3):
         sea.keyboard.press("ArrowLeft")
+        sea.wait_for_timeout(100)
     after = place(sea)
     assert after[0] - before[0] == pytest.approx(180.0, abs=3.0)  # 60 pixels a press; the glider itself flies on
     assert after[1] == pytest.approx(before[1], abs=3.0)

@@ -7,13 +7,12 @@ import math
 import os
 import time
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from stommel.station.archive import Archive, Batch
+from stommel.archive import Archive, Batch
 from tests.page.past import station
 from tests.station.speaker import speaker
 
@@ -75,7 +74,6 @@ def test_plots_move_at_thirty_frames_a_second(
     # The best of some: other work of this machine can only make frames fewer.
     best = max(1000.0 / float(np.mean(page.evaluate(MEASURE, [zoom, 1.5]))) for _ in range(5))
     record_property("frames_per_s", best)
-    print(f"{SAMPLES} samples, {'zoom' if zoom else 'pan'}: {best:.0f} frames/s")
     load = os.getloadavg()[0]
     if best < FRAMES_PER_S and load > 2.0 * (os.cpu_count() or 1):
         pytest.skip(f"{best:.0f} frames/s on a machine that is too busy to tell: load average {load:.0f}")

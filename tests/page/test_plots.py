@@ -178,7 +178,7 @@ def test_live_plots_follow_and_show_only_what_the_archive_has(plots: Plots, past
     raw = httpx.get(f"{past.address}/api/vehicles/1/series?{query}").json()["channels"]["pitch_deg"]
     kept = dict(zip(raw["t"], raw["value"], strict=True))
     for t, value in shown:
-        at = min(kept, key=lambda one: abs(one - t))  # noqa: B023 - used at once
+        at = min(kept, key=lambda one: abs(one - t))
         assert (at, kept[at]) == (pytest.approx(t, abs=2e-6, rel=0.0), value), "the archive has no such point"
     assert {round(v, 3) for _, v in shown} >= {float(k) for k in range(15)}
 

@@ -58,7 +58,15 @@ class StandInHub:
 def served(app: FastAPI, **options: Any) -> Iterator[str]:
     """Serve an application; the address, such as http://127.0.0.1:40001."""
     config = uvicorn.Config(
-        app, port=0, log_level="warning", lifespan="off", ws="websockets-sansio", timeout_graceful_shutdown=1, **options
+        app,
+        port=0,
+        loop="asyncio",
+        http="h11",
+        log_level="warning",
+        lifespan="off",
+        ws="websockets-sansio",
+        timeout_graceful_shutdown=1,
+        **options,
     )
     server = uvicorn.Server(config)
     thread = threading.Thread(target=server.run, daemon=True)

@@ -6,7 +6,7 @@ export interface Draft<T> {
   forget(): void;
 }
 
-const PREFIX = 'stommel.draft.';
+const PREFIX = 'stommel-draft-';
 const MOST_CHARACTERS = 2_000_000;
 
 /** A draft under a name; where the browser keeps nothing, it is only in the page. */

@@ -3,7 +3,7 @@
 import { live } from './live.svelte';
 import type { AlarmRow } from './types';
 
-const KEY = 'stommel.sound';
+const KEY = 'stommel-sound';
 const AGAIN_MS = 20_000;
 
 /** Tones of a severity: frequency in Hz, one after another. */

@@ -1,7 +1,7 @@
 // Light, dark, or what the system says. theme.js has set it before the first paint.
 
 export type Theme = 'system' | 'light' | 'dark';
-const KEY = 'stommel.theme';
+const KEY = 'stommel-theme';
 
 function stored(): Theme {
   try {

@@ -1,6 +1,6 @@
 // Whether the first five minutes are shown, and where they are. A browser that has seen them is left alone.
 
-const KEY = 'stommel.tour';
+const KEY = 'stommel-tour';
 
 function seen(): boolean {
   try {

@@ -124,7 +124,7 @@ def test_a_mission_on_its_way_when_the_station_stops_is_told_as_interrupted(tmp_
 def test_a_mission_refused_under_water_is_sent_again_at_the_surface(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The vehicle's own words of refusal; a glider on a cable is heard under water. Oracle: what it holds in the end."""
+    """The vehicle's own words of refusal; one on a cable is heard under water. Oracle: what it holds in the end."""
     from stommel.station.vehicles import mission_follower
 
     monkeypatch.setattr(mission_follower, "AGAIN", 1.0)

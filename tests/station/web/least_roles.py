@@ -50,7 +50,6 @@ LEAST_ROLES: dict[tuple[str, str], str] = {
     ("GET", f"{V}/mission"): VIEWER,
     ("POST", f"{V}/mission"): HOLDER,
     ("POST", f"{V}/mission/roll-back"): HOLDER,
-    ("GET", f"{V}/missions/{{id}}"): VIEWER,
     # files
     ("GET", f"{V}/listing"): VIEWER,
     ("GET", f"{V}/transfers"): VIEWER,
@@ -67,20 +66,9 @@ LEAST_ROLES: dict[tuple[str, str], str] = {
     ("GET", "/api/plan-templates"): VIEWER,
     ("GET", f"{V}/mission/plan"): VIEWER,
     ("GET", f"{V}/mission/comparison"): VIEWER,
-    ("GET", f"{V}/missions/{{id}}"): VIEWER,
     ("POST", "/api/plans/preview"): PILOT,
     ("GET", "/api/jobs/{job}"): VIEWER,
     ("DELETE", "/api/jobs/{job}"): PILOT,
-    # files
-    ("GET", f"{V}/listing"): VIEWER,
-    ("GET", f"{V}/files"): VIEWER,
-    ("POST", f"{V}/files"): PILOT,
-    ("GET", f"{V}/files/{{id}}"): VIEWER,
-    ("GET", f"{V}/transfers"): VIEWER,
-    ("POST", f"{V}/transfers"): PILOT,
-    ("POST", "/api/transfers/{id}/pause"): PILOT,
-    ("POST", "/api/transfers/{id}/resume"): PILOT,
-    ("POST", "/api/transfers/{id}/cancel"): PILOT,
     # data
     ("GET", f"{V}/dives"): VIEWER,
     ("GET", f"{V}/profiles"): VIEWER,

@@ -97,6 +97,11 @@ export function valueWords(row: ParameterRow, value: number | null): string {
   return row.unit ? `${digits(value)} ${row.unit}` : digits(value);
 }
 
+/** A value in a table: five digits tell enough. */
+export function brief(row: ParameterRow, value: number | null): string {
+  return valueWords(row, value === null ? null : Number(value.toPrecision(5)));
+}
+
 /** Where a value lies in its range, 0 to 1; null without one. */
 export function share(row: ParameterRow, value: number | null): number | null {
   if (value === null || !(row.high > row.low)) return null;

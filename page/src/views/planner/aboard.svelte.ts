@@ -35,6 +35,8 @@ export class Aboard {
   plan = $state.raw<Plan | null>(null);
   rows = $state.raw<MissionRow[]>([]);
   reason = $state('');
+  /** Which missions the plan was asked for. */
+  private planOf = '';
 
   constructor(vehicle: number) {
     this.vehicle = vehicle;
@@ -90,6 +92,9 @@ export class Aboard {
     } catch (error) {
       this.reason = sentence(error);
     }
+    const sent = `${this.mission?.sha256 ?? ''} ${this.rows[0]?.id ?? ''}`;
+    if (sent === this.planOf) return;
+    this.planOf = sent;
     try {
       this.plan = tidy((await api.get<{ plan: Plan }>(`/vehicles/${this.vehicle}/mission/plan`)).plan);
     } catch {

@@ -40,6 +40,8 @@ export class Desk {
   private kept;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private asked = 0;
+  private isAsking = false;
+  private again = false;
 
   constructor(vehicle: number) {
     this.vehicle = vehicle;
@@ -154,23 +156,34 @@ export class Desk {
   }
 
   private async checkNow(): Promise<void> {
+    if (this.isAsking) {
+      this.again = true; // one question at a time: a slow station is not asked faster than it answers
+      return;
+    }
     this.asked += 1;
     const number = this.asked;
+    this.isAsking = true;
+    this.again = false;
     try {
       const answer = await api.post<{ problems: PlanProblem[]; warnings: string[] }>('/plans/validate', {
         vehicle: this.vehicle,
         plan: this.plan,
       });
-      if (number !== this.asked) return;
-      this.told = answer.problems;
-      this.warnings = answer.warnings;
-      this.unchecked = '';
+      if (number === this.asked && !this.again) {
+        this.told = answer.problems;
+        this.warnings = answer.warnings;
+        this.unchecked = '';
+      }
     } catch (error) {
-      if (number !== this.asked) return;
-      this.unchecked = sentence(error).replace(/\.$/, '');
-      this.timer = setTimeout(() => void this.checkNow(), CHECK_AGAIN_MS);
+      if (number === this.asked) {
+        this.unchecked = sentence(error).replace(/\.$/, '');
+        this.timer = setTimeout(() => void this.checkNow(), CHECK_AGAIN_MS);
+      }
     }
-    this.checking = false;
+    this.isAsking = false;
+    if (number !== this.asked) return;
+    if (this.again) this.check();
+    else this.checking = false;
   }
 
   stop(): void {

@@ -183,7 +183,7 @@ export function problemOf(field: PlanField, text: string): string {
 export function short(value: number): string {
   if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e7))
     return value.toExponential().replace('e+', 'e');
-  return String(Number(value.toPrecision(6)));
+  return String(Number(value.toPrecision(8)));
 }
 
 /** The number that was typed; a comma is a point. */

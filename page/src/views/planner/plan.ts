@@ -1,6 +1,6 @@
 /** The plan as the page edits it; what may stand in it, the station says. */
 
-import { withValue } from './fields';
+import { short, withValue, type PlanSection } from './fields';
 
 export interface PlanPlace {
   latitude_deg: number;
@@ -112,14 +112,19 @@ export interface Difference {
   there: string;
 }
 
-/** What is not the same in two plans, key by key; empty where it is left out. */
-export function differences(here: Plan, there: Plan): Difference[] {
-  const one = flat(here);
-  const other = flat(there);
+/** Keys that the station fills in when it takes a plan that leaves them open. */
+const FILLED_IN = new Set(['start_time', 'neutral_density_kg_m3', 'water.current', 'water.north_m_s', 'water.east_m_s']);
+
+/** What is not the same in two plans, key by key; what is left out is what holds anyway. */
+export function differences(here: Plan, there: Plan, sections: PlanSection[]): Difference[] {
+  const usual: Record<string, string> = {};
+  for (const field of sections.flatMap((section) => section.fields)) flat(field.default, field.key, usual);
+  const one = { ...usual, ...flat(here) };
+  const other = { ...usual, ...flat(there) };
   const keys = [...new Set([...Object.keys(one), ...Object.keys(other)])];
   return keys
     .map((key) => ({ key, here: one[key] ?? '', there: other[key] ?? '' }))
-    .filter((row) => row.here !== row.there);
+    .filter((row) => row.here !== row.there && !(FILLED_IN.has(row.key) && flat(here)[row.key] === undefined));
 }
 
 function flat(value: unknown, before = '', found: Record<string, string> = {}): Record<string, string> {
@@ -131,7 +136,7 @@ function flat(value: unknown, before = '', found: Record<string, string> = {}): 
   } else if (typeof value === 'object') {
     for (const [key, each] of Object.entries(value)) flat(each, before ? `${before}.${key}` : key, found);
   } else {
-    found[before] = String(value);
+    found[before] = typeof value === 'number' ? short(value) : String(value);
   }
   return found;
 }

@@ -126,7 +126,8 @@ export class Desk {
   }
 
   #question(): Question {
-    const { begin, end } = this.shown;
+    const { begin } = this.shown;
+    const end = this.shown.end + (this.window.kind === 'live' ? this.source.ahead_s() : 0);
     return { source: this.source.key, channels: this.#channels, begin, end, points: this.#points };
   }
 

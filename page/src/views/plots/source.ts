@@ -31,7 +31,12 @@ export interface PlotSource {
   period_s(channel: string): number | null;
   /** How far behind its present a source may be heard, s of its own time: one of a person's seconds. */
   lag_s(): number;
+  /** How far beyond what the page takes for the present the archive may be asked, s: it may already have more. */
+  ahead_s(): number;
 }
+
+/** A clock that was told late is behind by less than this, s. */
+const AHEAD_S = 10;
 
 /** The station: the archive of a vehicle, and the live socket of it or of a replay of it. */
 export class StationSource implements PlotSource {
@@ -71,6 +76,10 @@ export class StationSource implements PlotSource {
 
   limit(channel: string): Limit | null {
     return this.limits.get(channel) ?? null;
+  }
+
+  ahead_s(): number {
+    return this.liveKey === this.vehicle ? AHEAD_S * this.lag_s() : 0;
   }
 
   lag_s(): number {

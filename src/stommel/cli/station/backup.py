@@ -21,7 +21,7 @@ def backup(
 
     The station may go on writing. Example: stommel station backup --database sea.sqlite sea-2026-11-27.sqlite
     """
-    from stommel.station.archive.backup import back_up
+    from stommel.archive.backup import back_up
 
     size = back_up(database_url(settings, database, folder), file)
     answer: dict[str, Any] = {"size_bytes": size}

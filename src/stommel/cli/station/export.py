@@ -13,7 +13,7 @@ from stommel.errors import OutputError, StommelError
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
-    from stommel.station.archive import Archive
+    from stommel.archive import Archive
 
 
 class UnknownVehicleError(StommelError):
@@ -52,10 +52,10 @@ def export(
 
     Example: stommel station export --database sea.sqlite --vehicle 1 --output sea.nc
     """
+    from stommel.archive import Archive
+    from stommel.archive.address import address_of
+    from stommel.archive.looking import require_there
     from stommel.files.whole import require_file
-    from stommel.station.archive import Archive
-    from stommel.station.archive.address import address_of
-    from stommel.station.archive.looking import require_there
 
     require_file(output, (".csv",) if what is What.telemetry else (".nc", ".csv"))
     span = _span(begin, end)
@@ -70,8 +70,8 @@ def export(
 
 
 def _span(begin: str, end: str) -> tuple[float, float]:
+    from stommel.archive.times import is_time
     from stommel.ocean.times import seconds
-    from stommel.station.archive.times import is_time
 
     span = seconds(begin), seconds(end)
     for option, words, t in (("--begin", begin, span[0]), ("--end", end, span[1])):
@@ -90,7 +90,7 @@ def _require_known(archive: "Archive", vehicle: int) -> None:
 
 
 def _write_telemetry(archive: "Archive", vehicle: int, begin: float, end: float, output: Path) -> int:
-    from stommel.station.archive.telemetry_file import write_telemetry
+    from stommel.archive.telemetry_file import write_telemetry
 
     return write_telemetry(archive, vehicle, begin, end, output)
 

@@ -37,7 +37,7 @@ def database_url(settings: Path | None, database: str | None, folder: Path | Non
 @contextmanager
 def opened_people(settings: Path | None, database: str | None, folder: Path | None) -> Iterator["People"]:
     """The people of a station, whether it runs or not."""
-    from stommel.station.archive import Archive
+    from stommel.archive import Archive
     from stommel.station.people.people import People
 
     archive = Archive.open(database_url(settings, database, folder))

@@ -9,10 +9,10 @@ from queue import Empty, Full, Queue
 from threading import Event, Thread
 from typing import Protocol, TypeVar
 
+from stommel.archive import Archive, ArchiveError, ArchiveRequestError, Batch
 from stommel.link.shore.shore_end import ShoreEnd
 from stommel.link.transports.opening import open_transport
 from stommel.link.transports.transport import READ_AT_ONCE, Transport, TransportError
-from stommel.station.archive import Archive, ArchiveError, ArchiveRequestError, Batch
 from stommel.station.settings import VehicleSettings
 from stommel.station.vehicles.abort_only import AbortOnly
 from stommel.station.vehicles.ingest import Ingest
@@ -104,10 +104,14 @@ class VehicleLine:
         """Begin to listen."""
         self._thread.start()
 
-    def stop(self, within: float = 5.0) -> None:
-        """End, with all that came stored if the archive takes it."""
+    def end_soon(self) -> None:
+        """Begin to end; `stop` waits for it."""
         self._ends.set()
         self._wake.set()
+
+    def stop(self, within: float = 5.0) -> None:
+        """End, with all that came stored if the archive takes it."""
+        self.end_soon()
         if self._thread.ident is not None:
             self._thread.join(within)
         self._held.close()

@@ -4,8 +4,8 @@ import math
 from collections import deque
 from collections.abc import Sequence
 
+from stommel.archive import Archive
 from stommel.messages.mavlink import entry_words
-from stommel.station.archive import Archive
 from stommel.station.vehicles.summary import AT_SURFACE, Approach
 
 LEAST_TIME = 120.0
@@ -77,7 +77,8 @@ class Underway:
     @property
     def approach(self) -> Approach | None:
         """How fast the waypoint comes closer since the last dive began; None where too little was seen."""
-        if not self._begins or self._distance is None:
+        begins, distance = list(self._begins), self._distance  # others ask while the line goes on
+        if not begins or distance is None:
             return None
-        (began, before), (t, now) = self._begins[0], self._distance
+        (began, before), (t, now) = begins[0], distance
         return Approach(began, (before - now) / (t - began)) if t - began >= LEAST_TIME else None

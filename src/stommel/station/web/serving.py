@@ -53,6 +53,8 @@ def serve(app: FastAPI, exposure: Exposure, taken: socket.socket, ready: Callabl
         log_level=logging.WARNING,
         access_log=False,
         lifespan="off",
+        loop="asyncio",
+        http="h11",
         ws="websockets-sansio",
         ws_max_size=_LARGEST_MESSAGE,
         server_header=False,

@@ -71,7 +71,7 @@ def check(answer: Series, samples: list[Sample], begin: float, end: float, point
     shown_values = [value for _, value in shown]
     assert (min(shown_values), max(shown_values)) == (min(values), max(values))
     bucket = (end - begin) / (points // 2)
-    widest_bucket = max(bucket + 60, 60) if bucket < 900 else bucket + 600  # rounded to whole cells
+    widest_bucket = bucket + 60 if bucket < 749 else bucket + 600  # rounded to whole cells, tens from 750 s on
     must, may = 5 * period, max(5 * period, widest_bucket if answer.reduced else 0)
     for (t, before), (later, after) in pairwise(inside):
         marked = [mark for mark in marks if t < mark < later]
@@ -85,7 +85,7 @@ def check(answer: Series, samples: list[Sample], begin: float, end: float, point
 
 
 @given(recordings(), windows(), st.integers(4, 60), st.sampled_from([1.0, 10.0, 47.0]))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=600, deadline=None)
 def test_displayed_points_are_the_query_of_the_displayed_window(
     shared: Archive, samples: list[Sample], window: tuple[float, float], points: int, period: float
 ) -> None:
@@ -119,7 +119,7 @@ def test_minutes_and_tens_draw_what_the_samples_draw(
     shared: Archive, samples: list[Sample], points: int, cells: int, shift: int
 ) -> None:
     """The lowest and highest of each bucket, found from cells, are those that a search of it finds."""
-    width = 60.0 * cells if cells < 15 else 600.0 * (cells - 13)
+    width = 60.0 * cells if cells <= 12 else 600.0 * (cells - 11)  # whole cells of those that are used
     key = stored(shared, samples)
     begin = T + shift
     end = begin + width * (points // 2) - 1e-6

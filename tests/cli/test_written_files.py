@@ -91,6 +91,7 @@ NEW = ("vehicle new", "link key new")
 ELSEWHERE = {
     "sitl campaign": "tests/sitl/test_campaign_command: a journal, and what fails",
     "sitl stand-in": "tests/sitl/test_real_ports: ports that go when it ends",
+    "station export": "tests/archive/test_commands: from an archive that is made there",
     "link files get": "tests/cli/test_link_story, with all that `stommel link` keeps by --state",
     "link mission download": "as link files get",
     "link status": "as link files get",
@@ -126,6 +127,7 @@ SAVE_AS = {
     "plan check": (".toml",),
     "plan preview": (".json",),
     "plan open": (".json",),
+    "station export": (".nc", ".csv"),
 }
 """What the names of written files end with, by option; of --output by verb."""
 

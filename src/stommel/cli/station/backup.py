@@ -11,7 +11,7 @@ from stommel.cli.station.options import DatabaseOption, FolderOption, SettingsOp
 
 
 def backup(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="The copy; what stood there is replaced.")],
+    file: Annotated[Path, typer.Argument(metavar="BACKUP", help="The copy; what stood there is replaced.")],
     database: DatabaseOption = None,
     settings: SettingsOption = None,
     folder: FolderOption = None,

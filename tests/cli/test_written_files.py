@@ -238,9 +238,10 @@ def refusal(verb: str, option: str, text: str) -> str:
         "root-locus": list(LOCUS[2:]),
         "link files get": ["log/1.log"] if option == "COPY" else [],
         "plan open": ["--vehicle", "zju", "--start", "18,115"],
+        "station export": ["--vehicle", "1"],
     }
     required = needed.get(verb, [])
-    subject = [] if option in METAVARS else ["there-is-no-such-thing"]
+    subject = [] if option in METAVARS or verb == "station export" else ["there-is-no-such-thing"]
     with pytest.raises(OutputError) as caught:
         app([*verb.split(), *subject, *required, *place], standalone_mode=False)
     return str(caught.value)

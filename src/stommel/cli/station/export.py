@@ -8,6 +8,7 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption
+from stommel.cli.paths import file_parser
 from stommel.cli.station.options import DatabaseOption, FolderOption, SettingsOption, database_url
 from stommel.errors import OutputError, StommelError
 from stommel.files.units import counted
@@ -37,7 +38,12 @@ EndOption = Annotated[str, typer.Option("--end", metavar="TIME", help="Last time
 
 def export(
     vehicle: Annotated[int, typer.Option("--vehicle", min=1, max=250, help="Number of the vehicle.")],
-    output: Annotated[Path, typer.Option("--output", metavar="FILE", help="Ends with .nc or .csv.")],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output", metavar="FILE", parser=file_parser("--output", ".nc", ".csv"), help="Ends with .nc or .csv."
+        ),
+    ],
     what: Annotated[
         What, typer.Option("--what", help="Samples of the CTD with what follows from them, or all telemetry (CSV).")
     ] = What.ctd,
@@ -57,7 +63,8 @@ def export(
     from stommel.archive.looking import require_there
     from stommel.files.whole import require_file
 
-    require_file(output, (".csv",) if what is What.telemetry else (".nc", ".csv"))
+    if what is What.telemetry:
+        require_file(output, (".csv",))
     span = _span(begin, end)
     url = database_url(settings, database, folder)
     require_there(address_of(url))

@@ -1,4 +1,4 @@
-"""Find the profiles of a flight, derive TEOS-10 quantities, and read a section: what the shore station does with samples."""
+"""Find the profiles of a flight, derive TEOS-10 quantities and make a section, as the shore station does."""
 
 import numpy as np
 import xarray as xr

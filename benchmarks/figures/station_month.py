@@ -9,9 +9,9 @@ from sqlalchemy import ColumnElement, Connection, Table, literal, select, text
 
 from figures.registry import Measurement, figure
 from figures.timing import seconds
-from stommel.station.archive import Archive, Batch
-from stommel.station.archive.cells import LEVELS
-from stommel.station.archive.schema import channels, samples
+from stommel.archive import Archive, Batch
+from stommel.archive.cells import LEVELS
+from stommel.archive.schema import channels, samples
 
 DAY = 86400
 DAYS = 30

@@ -384,7 +384,13 @@ ELSEWHERE = {
     "sitl campaign": "tests/sitl/test_campaign_command: --output, --runs, --seed, --workers, --scheduler, --restart",
     "sitl replay": "tests/sitl/test_campaign_command: --seed",
     "study": "tests/studies: --output, --workers, --scheduler, --restart, --plots",
-    "station serve": "tests/cli/test_station_serve: --database, --folder, --link, --vehicle, --key, --unsigned, "
+    "station backup": "tests/archive/test_commands: --database, --settings, --folder",
+    "station check": "tests/archive/test_commands: --database, --settings, --folder",
+    "station migrate": "tests/archive/test_commands: --database, --settings, --folder",
+    "station export": "tests/archive/test_commands: --database, --settings, --folder, --vehicle, --output, --what, "
+    "--begin, --end",
+    "station serve": "tests/cli/test_station_simulated: --sitl; "
+    "tests/cli/test_station_serve: --database, --folder, --link, --vehicle, --key, --unsigned, "
     "--model, --speed, --settings, --name, --host, --port, --certificate, --key-file, --behind-proxy, --login",
     **{
         f"station {verb}": f"tests/cli/test_station_people: --database, --settings, --folder{own}"

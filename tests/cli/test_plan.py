@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from stommel.station.planner.plan_file import read_plan
-from stommel.station.preview.flight import previewed
-from stommel.station.preview.ordering import orders_for
-from tests.station.planner.plans import PLAN, plan_with
+from stommel.plans.plan_file import read_plan
+from stommel.plans.preview.flight import previewed
+from stommel.plans.preview.ordering import orders_for
+from tests.plans.plans import PLAN, plan_with
 from tests.support.command import Command
 
 

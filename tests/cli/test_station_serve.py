@@ -12,8 +12,8 @@ from pathlib import Path
 import httpx
 import pytest
 
+from stommel.archive import Archive
 from stommel.cli.station.serve import vehicles_told
-from stommel.station.archive import Archive
 from stommel.station.people.people import People
 from stommel.station.people.roles import Role
 from tests.support.command import PROGRAM, Command

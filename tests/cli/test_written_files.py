@@ -91,6 +91,7 @@ NEW = ("vehicle new", "link key new")
 ELSEWHERE = {
     "sitl campaign": "tests/sitl/test_campaign_command: a journal, and what fails",
     "sitl stand-in": "tests/sitl/test_real_ports: ports that go when it ends",
+    "station export": "tests/archive/test_commands: from an archive that is made there",
     "link files get": "tests/cli/test_link_story, with all that `stommel link` keeps by --state",
     "link mission download": "as link files get",
     "link status": "as link files get",
@@ -126,6 +127,7 @@ SAVE_AS = {
     "plan check": (".toml",),
     "plan preview": (".json",),
     "plan open": (".json",),
+    "station export": (".nc", ".csv"),
 }
 """What the names of written files end with, by option; of --output by verb."""
 
@@ -236,9 +238,10 @@ def refusal(verb: str, option: str, text: str) -> str:
         "root-locus": list(LOCUS[2:]),
         "link files get": ["log/1.log"] if option == "COPY" else [],
         "plan open": ["--vehicle", "zju", "--start", "18,115"],
+        "station export": ["--vehicle", "1"],
     }
     required = needed.get(verb, [])
-    subject = [] if option in METAVARS else ["there-is-no-such-thing"]
+    subject = [] if option in METAVARS or verb == "station export" else ["there-is-no-such-thing"]
     with pytest.raises(OutputError) as caught:
         app([*verb.split(), *subject, *required, *place], standalone_mode=False)
     return str(caught.value)

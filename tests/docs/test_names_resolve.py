@@ -16,8 +16,8 @@ from typer.main import get_command
 from stommel.cli.app import app
 from stommel.cli.sitl import FLY
 from stommel.control.orders_tables import OrdersFile
+from stommel.plans.plan import StationPlan
 from stommel.simulation.scenario.scenario_file import ScenarioFile
-from stommel.station.planner.plan import StationPlan
 from stommel.vehicle.schema import VehicleFile
 from tests.conftest import Command
 

@@ -4,11 +4,11 @@ import json
 import re
 from pathlib import Path
 
-from stommel.station.planner.fields import plan_fields
-from stommel.station.planner.plan import StationPlan, Water
-from stommel.station.planner.problems import plan_from
-from stommel.station.preview.flight import previewed
-from stommel.station.preview.ordering import ordered
+from stommel.plans.fields import plan_fields
+from stommel.plans.plan import StationPlan, Water
+from stommel.plans.preview.flight import previewed
+from stommel.plans.preview.ordering import ordered
+from stommel.plans.problems import plan_from
 
 PAGE = (Path(__file__).parents[2] / "docs/guide/station/planner.md").read_text(encoding="utf-8")
 

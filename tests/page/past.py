@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stommel.station.archive import Archive, Batch, CtdRow, DiveRow
+from stommel.archive import Archive, Batch, CtdRow, DiveRow
 from tests.page.conftest import free_port, serve
 from tests.station.speaker import Speaker, speaker
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stommel.station.archive import Archive, Batch
+from stommel.archive import Archive, Batch
 from tests.page.past import station
 from tests.station.speaker import speaker
 

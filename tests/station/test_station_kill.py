@@ -26,9 +26,9 @@ import httpx
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
+from stommel.archive import Archive
 from stommel.link.frames import HEAD
 from stommel.messages.mavlink import message_named
-from stommel.station.archive import Archive
 from tests.station.speaker import Speaker, speaker
 
 KILLS = int(os.environ.get("STOMMEL_STATION_KILLS", "20"))

@@ -38,8 +38,8 @@ def check(
     Example: stommel plan check plan.json --output orders.toml
     """
     from stommel.files.whole import write_whole
-    from stommel.station.planner.plan_file import read_plan
-    from stommel.station.preview.ordering import ordered
+    from stommel.plans.plan_file import read_plan
+    from stommel.plans.preview.ordering import ordered
 
     found = ordered(read_plan(plan))
     written = []
@@ -70,9 +70,9 @@ def preview(
 
     from stommel.cli.flight_progress import flight_progress
     from stommel.files.whole import write_whole
-    from stommel.station.planner.plan_file import read_plan
-    from stommel.station.preview.flight import previewed
-    from stommel.station.preview.mission import mission_of
+    from stommel.plans.plan_file import read_plan
+    from stommel.plans.preview.flight import previewed
+    from stommel.plans.preview.mission import mission_of
 
     read = read_plan(plan)
     with flight_progress(mission_of(read)) as progress:
@@ -107,10 +107,10 @@ def open_orders(
     from stommel.files.opening import TOML_MIB, read_text
     from stommel.files.whole import write_whole
     from stommel.geometry.geodesics import Place
-    from stommel.station.planner.expected_water import ocean_at
-    from stommel.station.planner.plan_file import plan_text
-    from stommel.station.planner.templates import place_row
-    from stommel.station.preview.opening import opened
+    from stommel.plans.expected_water import ocean_at
+    from stommel.plans.plan_file import plan_text
+    from stommel.plans.preview.opening import opened
+    from stommel.plans.templates import place_row
 
     here = Place(*_place(start))
     around = {"vehicle": vehicle, "start": place_row(here), "water": {"ocean": ocean or ocean_at(here)}}

@@ -4,10 +4,10 @@ from contextlib import ExitStack
 
 from sqlalchemy import text
 
+from stommel.archive import Archive
+from stommel.archive.address import file_of
 from stommel.errors import StommelError
 from stommel.files.folder_lock import FolderInUseError, locked
-from stommel.station.archive import Archive
-from stommel.station.archive.address import file_of
 
 _LOCK = 0x73746F6D6D656C
 """Number of the lock in PostgreSQL, where locks have numbers: "stommel" in ASCII."""

@@ -6,14 +6,14 @@ from contextlib import ExitStack
 from dataclasses import asdict
 from typing import Any
 
+from stommel.archive import Archive, Batch
 from stommel.files.folder_lock import FolderInUseError, locked
 from stommel.link.transports.address import read_address
-from stommel.station.archive import Archive, Batch
+from stommel.plans.preview.previews import Previews
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.people.holders import Hold
 from stommel.station.people.people import People
-from stommel.station.preview.previews import Previews
 from stommel.station.replay.replays import Replays
 from stommel.station.settings import StationSettings, VehicleSettings
 from stommel.station.sole import hold_archive

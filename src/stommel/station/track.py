@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 from sqlalchemy import select
 
-from stommel.station.archive import Archive
-from stommel.station.archive.schema import channels, samples
-from stommel.station.archive.times import seconds
+from stommel.archive import Archive
+from stommel.archive.schema import channels, samples
+from stommel.archive.times import seconds
 
 AT_ONCE = 500
 """Times that are looked up by one query."""

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
+from stommel.archive import Archive
 from stommel.errors import StommelError
 from stommel.station.alarms.alert_words import Sender
 from stommel.station.alarms.contact_watch import Contact
@@ -11,7 +12,6 @@ from stommel.station.alarms.defaults import default_limits
 from stommel.station.alarms.limits import ChannelWords
 from stommel.station.alarms.severity import RANK
 from stommel.station.alarms.station_alarms import ARCHIVE_FAILING, StationAlarms
-from stommel.station.archive import Archive
 from stommel.station.channels import channel_named
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from stommel.station.archive.archive import Archive
+from stommel.archive.archive import Archive
 
 
 @pytest.fixture

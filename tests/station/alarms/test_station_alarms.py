@@ -6,6 +6,9 @@ from typing import Any
 
 import pytest
 
+from stommel.archive.archive import Archive
+from stommel.archive.errors import ArchiveFullError
+from stommel.archive.rows import Batch
 from stommel.station.alarms.alarm import Alarm
 from stommel.station.alarms.alert_words import Sender
 from stommel.station.alarms.contact_watch import Contact
@@ -13,9 +16,6 @@ from stommel.station.alarms.defaults import default_limits
 from stommel.station.alarms.history import AlarmError
 from stommel.station.alarms.limits import ChannelWords, Limit
 from stommel.station.alarms.station_alarms import ARCHIVE_FAILING, StationAlarms
-from stommel.station.archive.archive import Archive
-from stommel.station.archive.errors import ArchiveFullError
-from stommel.station.archive.rows import Batch
 from stommel.vehicle import Vehicle
 
 DEPTH = Limit(channel="depth_m", high=200.0, hysteresis=5.0, severity="critical")

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from sqlalchemy import insert
 
-from stommel.station.archive.schema import alarms, commands, missions
+from stommel.archive.schema import alarms, commands, missions
 from stommel.station.logbook.feed import page_of
 from stommel.station.logbook.notes import Notes
 from stommel.station.station import Station

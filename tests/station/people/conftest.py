@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from stommel.station.archive import Archive
+from stommel.archive import Archive
 from stommel.station.people.people import People
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from stommel.station.archive import Archive
+from stommel.archive import Archive
 from stommel.station.people.errors import HeldError, PeopleError
 from stommel.station.people.people import People
 from stommel.station.people.roles import Role, User

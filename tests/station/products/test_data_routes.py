@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from stommel.station.archive.rows import Batch, CtdRow, DiveRow
+from stommel.archive.rows import Batch, CtdRow, DiveRow
 from tests.station.client import Client
 from tests.station.stations import station
 

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from websockets.sync.client import connect
 
-from stommel.station.archive import Archive, Batch
+from stommel.archive import Archive, Batch
 from stommel.station.live.events import Samples
 from stommel.station.replay import replay as replay_module
 from stommel.station.replay.course import LONGEST_STEP, Course
@@ -221,7 +221,7 @@ def test_a_replay_waits_for_a_reader_that_is_slow(station: Station, monkeypatch:
 def test_an_archive_that_fails_holds_a_replay_and_does_not_end_it(
     station: Station, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from stommel.station.archive import ArchiveError
+    from stommel.archive import ArchiveError
 
     station.archive.store(1, Batch(samples=DEPTHS[:100]))
     replay = station.replays.begin("ana", 1, T0, T0 + 99.0, 100.0)

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from stommel.archive import ArchiveError
 from stommel.link.commands.port import Answer, Readiness
 from stommel.link.commands.states import Progress, State, When
 from stommel.link.commands.table import ABORT, HOLD, CommandError
-from stommel.station.archive import ArchiveError
 from stommel.station.station import Station
 from tests.station.client import Client
 from tests.station.served import served

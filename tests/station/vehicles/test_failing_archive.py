@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from sqlalchemy import func, select
 
-from stommel.station.archive import Archive, ArchiveFullError
-from stommel.station.archive.schema import frames
+from stommel.archive import Archive, ArchiveFullError
+from stommel.archive.schema import frames
 from stommel.station.station import Station
 from stommel.station.vehicles import ingest
 from tests.station.client import Client

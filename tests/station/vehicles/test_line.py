@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from sqlalchemy import select
 
-from stommel.station.archive.schema import frames, texts
+from stommel.archive.schema import frames, texts
 from stommel.station.station import Station
 from tests.station.speaker import Speaker, speaker, until
 from tests.station.stations import station

@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
+from stommel.archive import DiveRow
 from stommel.link.statistics import NOTHING_REFUSED, LinkStatistics
-from stommel.station.archive import DiveRow
 from stommel.station.vehicles.line_status import LineStatus
 from stommel.station.vehicles.summary import Approach, Known, summary_of
 from stommel.station.vehicles.underway import Underway

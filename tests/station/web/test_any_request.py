@@ -25,7 +25,7 @@ from stommel.station.web.app import api_routes, create_app
 from tests.station.stations import station as silent_station
 from tests.support.station_served import served
 
-EXAMPLES = int(os.environ.get("STOMMEL_FUZZ_EXAMPLES", "15"))
+EXAMPLES = int(os.environ.get("STOMMEL_FUZZ_EXAMPLES", "6"))
 ROUTES = sorted((method, route.path) for route in api_routes() for method in route.methods or ())
 SLOW = {("POST", "/api/plans/preview")}
 """Starts a process for each plan that it takes."""

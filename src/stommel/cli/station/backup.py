@@ -11,7 +11,7 @@ from stommel.cli.station.options import DatabaseOption, FolderOption, SettingsOp
 
 
 def backup(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="The copy; what stood there is replaced.")],
+    file: Annotated[Path, typer.Argument(metavar="BACKUP", help="The copy; what stood there is replaced.")],
     database: DatabaseOption = None,
     settings: SettingsOption = None,
     folder: FolderOption = None,
@@ -21,7 +21,7 @@ def backup(
 
     The station may go on writing. Example: stommel station backup --database sea.sqlite sea-2026-11-27.sqlite
     """
-    from stommel.station.archive.backup import back_up
+    from stommel.archive.backup import back_up
 
     size = back_up(database_url(settings, database, folder), file)
     answer: dict[str, Any] = {"size_bytes": size}

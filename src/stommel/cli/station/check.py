@@ -10,7 +10,7 @@ from stommel.cli.output import show_values
 from stommel.cli.station.options import DatabaseOption, FolderOption, SettingsOption, database_url
 
 if TYPE_CHECKING:
-    from stommel.station.archive.soundness import Soundness
+    from stommel.archive.soundness import Soundness
 
 
 def check(
@@ -23,7 +23,7 @@ def check(
 
     Example: stommel station check --database sea.sqlite
     """
-    from stommel.station.archive.soundness import soundness_of
+    from stommel.archive.soundness import soundness_of
 
     found = soundness_of(database_url(settings, database, folder))
     finish(found, None, as_json, _show)
@@ -41,10 +41,10 @@ def migrate(
 
     Example: stommel station migrate --database sea.sqlite
     """
-    from stommel.station.archive import Archive
-    from stommel.station.archive.address import address_of
-    from stommel.station.archive.looking import require_there
-    from stommel.station.archive.migrating import CURRENT
+    from stommel.archive import Archive
+    from stommel.archive.address import address_of
+    from stommel.archive.looking import require_there
+    from stommel.archive.migrating import CURRENT
 
     url = database_url(settings, database, folder)
     require_there(address_of(url))

@@ -8,12 +8,13 @@ import typer
 
 from stommel.cli.finish import finish
 from stommel.cli.options import JsonOption
+from stommel.cli.paths import file_parser
 from stommel.cli.station.options import DatabaseOption, FolderOption, SettingsOption, database_url
 from stommel.errors import OutputError, StommelError
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
-    from stommel.station.archive import Archive
+    from stommel.archive import Archive
 
 
 class UnknownVehicleError(StommelError):
@@ -37,7 +38,12 @@ EndOption = Annotated[str, typer.Option("--end", metavar="TIME", help="Last time
 
 def export(
     vehicle: Annotated[int, typer.Option("--vehicle", min=1, max=250, help="Number of the vehicle.")],
-    output: Annotated[Path, typer.Option("--output", metavar="FILE", help="Ends with .nc or .csv.")],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output", metavar="FILE", parser=file_parser("--output", ".nc", ".csv"), help="Ends with .nc or .csv."
+        ),
+    ],
     what: Annotated[
         What, typer.Option("--what", help="Samples of the CTD with what follows from them, or all telemetry (CSV).")
     ] = What.ctd,
@@ -52,12 +58,13 @@ def export(
 
     Example: stommel station export --database sea.sqlite --vehicle 1 --output sea.nc
     """
+    from stommel.archive import Archive
+    from stommel.archive.address import address_of
+    from stommel.archive.looking import require_there
     from stommel.files.whole import require_file
-    from stommel.station.archive import Archive
-    from stommel.station.archive.address import address_of
-    from stommel.station.archive.looking import require_there
 
-    require_file(output, (".csv",) if what is What.telemetry else (".nc", ".csv"))
+    if what is What.telemetry:
+        require_file(output, (".csv",))
     span = _span(begin, end)
     url = database_url(settings, database, folder)
     require_there(address_of(url))
@@ -70,8 +77,8 @@ def export(
 
 
 def _span(begin: str, end: str) -> tuple[float, float]:
+    from stommel.archive.times import is_time
     from stommel.ocean.times import seconds
-    from stommel.station.archive.times import is_time
 
     span = seconds(begin), seconds(end)
     for option, words, t in (("--begin", begin, span[0]), ("--end", end, span[1])):
@@ -90,7 +97,7 @@ def _require_known(archive: "Archive", vehicle: int) -> None:
 
 
 def _write_telemetry(archive: "Archive", vehicle: int, begin: float, end: float, output: Path) -> int:
-    from stommel.station.archive.telemetry_file import write_telemetry
+    from stommel.archive.telemetry_file import write_telemetry
 
     return write_telemetry(archive, vehicle, begin, end, output)
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from stommel.station.people.people import People
 
 SettingsOption = Annotated[
-    Path | None, typer.Option("--settings", metavar="FILE", help="What the station is told, station.toml.")
+    Path | None, typer.Option("--settings", metavar="SETTINGS", help="What the station is told, station.toml.")
 ]
 DatabaseOption = Annotated[
     str | None,
@@ -23,7 +23,7 @@ DatabaseOption = Annotated[
 ]
 FolderOption = Annotated[
     Path | None,
-    typer.Option("--folder", metavar="FOLDER", help="Folder of the station: files of vehicles, keys of links."),
+    typer.Option("--folder", metavar="STATION", help="Folder of the station: files of vehicles, keys of links."),
 ]
 
 
@@ -37,7 +37,7 @@ def database_url(settings: Path | None, database: str | None, folder: Path | Non
 @contextmanager
 def opened_people(settings: Path | None, database: str | None, folder: Path | None) -> Iterator["People"]:
     """The people of a station, whether it runs or not."""
-    from stommel.station.archive import Archive
+    from stommel.archive import Archive
     from stommel.station.people.people import People
 
     archive = Archive.open(database_url(settings, database, folder))

@@ -58,9 +58,9 @@ def serve(
         int | None, typer.Option("--port", min=0, max=65535, help="Port of the page, 8470; 0 takes a free one.")
     ] = None,
     certificate: Annotated[
-        Path | None, typer.Option("--certificate", metavar="FILE", help="Certificate for TLS, PEM.")
+        Path | None, typer.Option("--certificate", metavar="PEM", help="Certificate for TLS, PEM.")
     ] = None,
-    key_file: Annotated[Path | None, typer.Option("--key-file", metavar="FILE", help="Its key, PEM.")] = None,
+    key_file: Annotated[Path | None, typer.Option("--key-file", metavar="PEM", help="Its key, PEM.")] = None,
     behind_proxy: Annotated[
         bool | None, typer.Option("--behind-proxy", help="A proxy in front serves TLS and sets X-Forwarded-Proto.")
     ] = None,

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 
 from sqlalchemy import Row, and_, insert, or_, select, update
 
+from stommel.archive.archive import Archive
+from stommel.archive.schema import alarms as table
+from stommel.archive.times import microseconds, seconds
 from stommel.errors import StommelError
 from stommel.station.alarms.alarm import Alarm
-from stommel.station.archive.archive import Archive
-from stommel.station.archive.schema import alarms as table
-from stommel.station.archive.times import microseconds, seconds
 
 
 class AlarmError(StommelError):

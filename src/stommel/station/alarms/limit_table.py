@@ -5,10 +5,10 @@ from collections.abc import Iterable
 
 from sqlalchemy import delete, insert, select
 
+from stommel.archive.archive import Archive
+from stommel.archive.schema import limits as table
+from stommel.archive.times import microseconds
 from stommel.station.alarms.limits import Limit
-from stommel.station.archive.archive import Archive
-from stommel.station.archive.schema import limits as table
-from stommel.station.archive.times import microseconds
 
 
 class LimitTable:

@@ -8,11 +8,11 @@ from threading import Lock
 
 from sqlalchemy.exc import SQLAlchemyError
 
+from stommel.archive.errors import ArchiveError
+from stommel.archive.times import as_kept
 from stommel.station.alarms.alarm import Alarm
 from stommel.station.alarms.change import Change
 from stommel.station.alarms.history import History
-from stommel.station.archive.errors import ArchiveError
-from stommel.station.archive.times import as_kept
 
 Tell = Callable[[Alarm], None]
 MOST_WAITING = 10_000

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from threading import Event, Lock, Thread
 from typing import Any, NamedTuple
 
+from stommel.archive.archive import Archive
+from stommel.archive.times import as_kept
 from stommel.station.alarms.alarm import Alarm
 from stommel.station.alarms.alert_settings import AlarmSettings, AlertSettings
 from stommel.station.alarms.alert_words import Sender
@@ -19,8 +21,6 @@ from stommel.station.alarms.limits import Limit, Naming
 from stommel.station.alarms.register import Register
 from stommel.station.alarms.severity import Severity
 from stommel.station.alarms.vehicle_watch import VehicleWatch
-from stommel.station.archive.archive import Archive
-from stommel.station.archive.times import as_kept
 
 ARCHIVE_FAILING, ALERTS_FAILING = "archive_failing", "alerts_failing"
 _WORDS: Mapping[str, tuple[str, Severity]] = {

@@ -4,13 +4,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite
 from threading import Lock
 
+from stommel.archive.times import is_time
 from stommel.station.alarms.alert_settings import AlarmSettings
 from stommel.station.alarms.change import Change
 from stommel.station.alarms.contact_watch import Contact, ContactWatch
 from stommel.station.alarms.limit_watch import LimitWatch, Sample
 from stommel.station.alarms.limits import Limit, Naming
 from stommel.station.alarms.vehicle_alarms import VehicleAlarmWatch
-from stommel.station.archive.times import is_time
 
 ALARM_BITS = "vehicle_alarms"
 """Channel of the vehicle's own alarms."""

@@ -5,8 +5,8 @@ from typing import Any, NamedTuple
 
 from sqlalchemy import case, delete, func, insert, select
 
-from stommel.station.archive import Archive
-from stommel.station.archive.schema import layers as table
+from stommel.archive import Archive
+from stommel.archive.schema import layers as table
 from stommel.station.layers.bounds import Bounds, LayerError, require_area
 from stommel.station.layers.geojson import checked_geojson
 from stommel.station.layers.images import image_kind

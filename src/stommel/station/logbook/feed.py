@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 
 from sqlalchemy import ColumnElement, Row, Table, and_, false, or_, select
 
-from stommel.station.archive import Archive
-from stommel.station.archive.schema import alarms, commands, missions, notes
-from stommel.station.archive.times import seconds
+from stommel.archive import Archive
+from stommel.archive.schema import alarms, commands, missions, notes
+from stommel.archive.times import seconds
 from stommel.station.logbook.searching import has_words
 
 

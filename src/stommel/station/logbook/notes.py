@@ -5,9 +5,9 @@ from typing import Any, NamedTuple
 
 from sqlalchemy import Row, and_, insert, or_, select
 
-from stommel.station.archive import Archive
-from stommel.station.archive.schema import notes as table
-from stommel.station.archive.times import as_kept, microseconds, seconds
+from stommel.archive import Archive
+from stommel.archive.schema import notes as table
+from stommel.archive.times import as_kept, microseconds, seconds
 from stommel.station.logbook.searching import has_words
 
 

@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 
 from sqlalchemy import Connection, select
 
-from stommel.station.archive.schema import holders
+from stommel.archive.schema import holders
 from stommel.station.people.errors import HeldError, PeopleError
 from stommel.station.people.roles import Role, User
 from stommel.station.people.times import microseconds, seconds

@@ -5,8 +5,8 @@ from contextlib import suppress
 
 from sqlalchemy import select
 
-from stommel.station.archive.errors import ArchiveError
-from stommel.station.archive.schema import sessions, users
+from stommel.archive.errors import ArchiveError
+from stommel.archive.schema import sessions, users
 from stommel.station.people.roles import Role, User
 from stommel.station.people.secrets_kept import fingerprint, new_secret
 from stommel.station.people.times import microseconds, seconds

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from sqlalchemy import Row, func, select
 
-from stommel.station.archive.errors import ArchiveError
-from stommel.station.archive.schema import tokens, users
+from stommel.archive.errors import ArchiveError
+from stommel.archive.schema import tokens, users
 from stommel.station.people.errors import PeopleError, UnknownPersonError
 from stommel.station.people.names import spelled
 from stommel.station.people.roles import Role, User

@@ -7,7 +7,7 @@ from typing import Protocol
 
 from sqlalchemy import Connection, func, select
 
-from stommel.station.archive.schema import sessions, tokens, users
+from stommel.archive.schema import sessions, tokens, users
 from stommel.station.people.errors import PeopleError, UnknownPersonError
 from stommel.station.people.names import checked_name, spelled
 from stommel.station.people.passwords import checked_password, hashed

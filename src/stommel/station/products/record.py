@@ -7,8 +7,8 @@ import numpy as np
 import xarray as xr
 from sqlalchemy import func, select
 
-from stommel.station.archive import schema
-from stommel.station.archive.archive import Archive
+from stommel.archive import schema
+from stommel.archive.archive import Archive
 from stommel.station.products.samples import LATEST, sampled
 
 

@@ -7,13 +7,13 @@ import xarray as xr
 from numpy.typing import NDArray
 from sqlalchemy import ColumnElement, and_, func, select
 
+from stommel.archive import schema
+from stommel.archive.archive import Archive
 from stommel.data.derived import with_derived
 from stommel.data.files import TIME, as_trajectory
 from stommel.data.profiles import with_profiles
 from stommel.data.variables import BY_NAME
 from stommel.errors import StommelError
-from stommel.station.archive import schema
-from stommel.station.archive.archive import Archive
 
 MOST_SAMPLES = 2_000_000
 """In one data set."""

@@ -2,8 +2,8 @@
 
 from sqlalchemy import Connection, select
 
-from stommel.station.archive.schema import channels, samples, texts
-from stommel.station.archive.times import microseconds, seconds
+from stommel.archive.schema import channels, samples, texts
+from stommel.archive.times import microseconds, seconds
 
 Sample = tuple[str, float, float]
 MOST_SAMPLES = 10_000

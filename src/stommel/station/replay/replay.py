@@ -5,7 +5,7 @@ from collections.abc import Callable
 from threading import Event, Lock, Thread
 from typing import Any
 
-from stommel.station.archive import Archive, ArchiveError
+from stommel.archive import Archive, ArchiveError
 from stommel.station.live.events import Happening, Samples
 from stommel.station.live.hub import Hub
 from stommel.station.replay.course import Course

@@ -4,8 +4,8 @@ import secrets
 from threading import Lock
 from typing import Any
 
+from stommel.archive import Archive
 from stommel.errors import StommelError
-from stommel.station.archive import Archive
 from stommel.station.live.hub import Hub
 from stommel.station.replay.course import Course
 from stommel.station.replay.replay import Replay

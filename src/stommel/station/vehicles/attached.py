@@ -7,8 +7,8 @@ from typing import Any
 
 from sqlalchemy import select
 
-from stommel.station.archive import Archive, Batch, DiveRow
-from stommel.station.archive.schema import dives
+from stommel.archive import Archive, Batch, DiveRow
+from stommel.archive.schema import dives
 from stommel.station.live.events import Happening, Samples, Summary
 from stommel.station.live.hub import Hub
 from stommel.station.settings import VehicleSettings

@@ -4,10 +4,10 @@ import time
 from collections import deque
 from collections.abc import Callable
 
+from stommel.archive import ArchiveError
 from stommel.link.commands.report import Report
 from stommel.link.commands.states import UNKNOWN_PERCENT, State
 from stommel.link.commands.table import command_named
-from stommel.station.archive import ArchiveError
 from stommel.station.vehicles.command_rows import GIVEN, NOT_SENT, CommandRow, CommandRows
 from stommel.station.vehicles.line import VehicleLine
 

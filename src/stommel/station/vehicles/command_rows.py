@@ -5,9 +5,9 @@ from typing import Any, NamedTuple
 
 from sqlalchemy import Connection, select
 
-from stommel.station.archive import Archive
-from stommel.station.archive.schema import command_history, commands
-from stommel.station.archive.times import microseconds, seconds
+from stommel.archive import Archive
+from stommel.archive.schema import command_history, commands
+from stommel.archive.times import microseconds, seconds
 
 GIVEN = "given"
 """On the disk of the station, and not in the queue of the link yet."""

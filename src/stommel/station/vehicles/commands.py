@@ -4,11 +4,11 @@ import secrets
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from stommel.archive import Archive
 from stommel.link.commands.client import LEAST_VALID, MOST_VALID
 from stommel.link.commands.states import When
 from stommel.link.commands.table import CommandError, command_named, packed
 from stommel.link.shore.shore_end import ShoreEnd
-from stommel.station.archive import Archive
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask

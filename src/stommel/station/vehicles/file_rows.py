@@ -4,9 +4,9 @@ from typing import Any, NamedTuple
 
 from sqlalchemy import select
 
-from stommel.station.archive import Archive
-from stommel.station.archive.schema import files
-from stommel.station.archive.times import microseconds, seconds
+from stommel.archive import Archive
+from stommel.archive.schema import files
+from stommel.archive.times import microseconds, seconds
 
 GOING, PAUSED = "going", "paused"
 OPEN = (GOING, PAUSED)

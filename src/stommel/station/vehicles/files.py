@@ -6,10 +6,10 @@ from concurrent.futures import TimeoutError as TooLate
 from pathlib import Path
 from typing import Any
 
+from stommel.archive import Archive
 from stommel.errors import StommelError
 from stommel.link.files.paths import file_path, plain_path
 from stommel.link.files.port import Entry
-from stommel.station.archive import Archive
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask

@@ -3,13 +3,13 @@
 import math
 from collections.abc import Sequence
 
+from stommel.archive.rows import Batch, CtdRow, DiveRow, FrameRow
 from stommel.link.frames import FrameSplitter, RawFrame
 from stommel.link.service import Received
 from stommel.link.session import SILENCE
 from stommel.link.shore.heard import Heard
 from stommel.link.statistics import LinkStatistics
 from stommel.messages.mavlink import Fields
-from stommel.station.archive.rows import Batch, CtdRow, DiveRow, FrameRow
 from stommel.station.channels import Channel, channels_of, told_by
 from stommel.station.clock import FIRST, LAST, VehicleClock
 

@@ -9,10 +9,10 @@ from queue import Empty, Full, Queue
 from threading import Event, Thread
 from typing import Protocol, TypeVar
 
+from stommel.archive import Archive, ArchiveError, ArchiveRequestError, Batch
 from stommel.link.shore.shore_end import ShoreEnd
 from stommel.link.transports.opening import open_transport
 from stommel.link.transports.transport import READ_AT_ONCE, Transport, TransportError
-from stommel.station.archive import Archive, ArchiveError, ArchiveRequestError, Batch
 from stommel.station.settings import VehicleSettings
 from stommel.station.vehicles.abort_only import AbortOnly
 from stommel.station.vehicles.ingest import Ingest

@@ -5,9 +5,9 @@ from typing import Any, NamedTuple
 
 from sqlalchemy import Connection, select
 
-from stommel.station.archive import Archive
-from stommel.station.archive.schema import mission_history, missions
-from stommel.station.archive.times import microseconds, seconds
+from stommel.archive import Archive
+from stommel.archive.schema import mission_history, missions
+from stommel.archive.times import microseconds, seconds
 
 WAITING, SENDING, ABOARD, REPLACED = "waiting", "sending", "aboard", "replaced"
 REFUSED, FAILED, INTERRUPTED = "refused", "failed", "interrupted"

@@ -5,10 +5,10 @@ from collections.abc import Mapping, Sequence
 from math import degrees
 from typing import Any
 
+from stommel.archive import Archive
 from stommel.control.orders_file import parse_orders
 from stommel.errors import StommelError
 from stommel.link.shore.shore_end import ShoreEnd
-from stommel.station.archive import Archive
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask

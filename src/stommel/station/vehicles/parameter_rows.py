@@ -5,9 +5,9 @@ from typing import Any, NamedTuple
 
 from sqlalchemy import and_, func, select
 
-from stommel.station.archive import Archive
-from stommel.station.archive.schema import parameters
-from stommel.station.archive.times import microseconds, seconds
+from stommel.archive import Archive
+from stommel.archive.schema import parameters
+from stommel.archive.times import microseconds, seconds
 
 
 class ParameterRow(NamedTuple):

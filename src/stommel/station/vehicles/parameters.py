@@ -3,11 +3,11 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from stommel.archive import Archive
 from stommel.errors import StommelError
 from stommel.link.endings import Ending
 from stommel.link.parameters.known import KnownSet
 from stommel.link.shore.shore_end import ShoreEnd
-from stommel.station.archive import Archive
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask

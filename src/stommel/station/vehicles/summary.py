@@ -4,10 +4,10 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
+from stommel.archive import DiveRow
 from stommel.compilation import plain
 from stommel.geometry.earth import metres_per_radian
 from stommel.messages.mavlink import entry_words
-from stommel.station.archive import DiveRow
 from stommel.station.vehicles.line_status import LineStatus
 
 LAST_DIVES = 3

@@ -4,8 +4,8 @@ import math
 from collections import deque
 from collections.abc import Sequence
 
+from stommel.archive import Archive
 from stommel.messages.mavlink import entry_words
-from stommel.station.archive import Archive
 from stommel.station.vehicles.summary import AT_SURFACE, Approach
 
 LEAST_TIME = 120.0

@@ -11,9 +11,12 @@ from fastapi.responses import JSONResponse
 from sqlalchemy.exc import IntegrityError
 from starlette.exceptions import HTTPException as AnyHTTPException
 
+from stommel.archive.errors import ArchiveError, ArchiveRequestError
 from stommel.errors import FileError, StommelError, one_line
 from stommel.files.sentences import dotted, value_sentence
-from stommel.station.archive.errors import ArchiveError, ArchiveRequestError
+from stommel.plans.preview.previews import TooManyJobsError, UnknownJobError
+from stommel.plans.preview.worker import SimulatorError
+from stommel.plans.problems import PlanError
 from stommel.station.people.errors import (
     HeldError,
     PeopleError,
@@ -21,9 +24,6 @@ from stommel.station.people.errors import (
     UnknownPersonError,
     WrongLoginError,
 )
-from stommel.station.planner.problems import PlanError
-from stommel.station.preview.previews import TooManyJobsError, UnknownJobError
-from stommel.station.preview.worker import SimulatorError
 from stommel.station.vehicles.opening import MissingError, VehicleError
 
 MOST_PROBLEMS = 20

@@ -4,7 +4,7 @@ import asyncio
 import json
 import logging
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Coroutine, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -88,8 +88,8 @@ class _Reader:
             await self._send(
                 {"type": "hello", "now": time.time(), "vehicles": await run_in_threadpool(self._summaries)}
             )
-            self._start(self._hand_on(None, news))
-            self._start(self._ping())
+            self._start(lambda: self._hand_on(None, news))
+            self._start(self._ping)
             while True:
                 message = await self._socket.receive()
                 if message["type"] == "websocket.disconnect":
@@ -132,7 +132,7 @@ class _Reader:
         if len(self._open) >= MOST_SUBSCRIPTIONS:
             raise StommelError(f"a page has at most {MOST_SUBSCRIPTIONS} subscriptions")
         subscription = self._hub.subscribe(asked.id, asked.vehicle, asked.channels, asked.every)
-        self._open[asked.id] = subscription, self._start(self._hand_on(asked.id, subscription))
+        self._open[asked.id] = subscription, self._start(lambda: self._hand_on(asked.id, subscription))
 
     async def _hand_on(self, identity: str | None, subscription: "Subscription") -> None:
         """Hand on what comes; whatever fails ends this subscription only."""
@@ -180,14 +180,14 @@ class _Reader:
                     await self._socket.close(1013)
                 raise WebSocketDisconnect from error
 
-    def _start(self, work: Any) -> asyncio.Task[None]:
+    def _start(self, work: Callable[[], Coroutine[Any, Any, None]]) -> asyncio.Task[None]:
         task: asyncio.Task[None] = asyncio.create_task(_quietly(work))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
         return task
 
 
-async def _quietly(work: Any) -> None:
-    """A browser that has gone is no news."""
+async def _quietly(work: Callable[[], Coroutine[Any, Any, None]]) -> None:
+    """A browser that has gone is no news; one that goes at once leaves nothing begun."""
     with suppress(WebSocketDisconnect, OSError, TimeoutError, RuntimeError):
-        await work
+        await work()

@@ -15,12 +15,12 @@ from pydantic import BaseModel
 from sqlalchemy import select
 from starlette.background import BackgroundTask
 
+from stommel.archive import schema
 from stommel.data.files import csv_lines, write_netcdf
 from stommel.data.gridding import section
 from stommel.data.summaries import profile_summaries
 from stommel.data.variables import BY_NAME
 from stommel.data.water_masses import density_lines
-from stommel.station.archive import schema
 from stommel.station.products.record import SampleRecords
 from stommel.station.products.samples import LATEST, trajectory
 from stommel.station.web.access import Viewer

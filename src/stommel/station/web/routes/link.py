@@ -6,9 +6,9 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query
 from pydantic import BaseModel
 
+from stommel.archive.readers import StoredFrame
 from stommel.link.frames import CHECKSUM, HEAD
 from stommel.messages.mavlink import MessageError, message_named, message_types
-from stommel.station.archive.readers import StoredFrame
 from stommel.station.web.access import Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation

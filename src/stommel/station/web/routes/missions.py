@@ -5,10 +5,10 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Path, Query
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from stommel.station.planner.flown import current_of_last_dive
-from stommel.station.planner.plan import StationPlan
-from stommel.station.planner.problems import plan_from
-from stommel.station.planner.resolving import resolved
+from stommel.plans.flown import current_of_last_dive
+from stommel.plans.plan import StationPlan
+from stommel.plans.problems import plan_from
+from stommel.plans.resolving import resolved
 from stommel.station.station import Station
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.web.access import Holder, Viewer

@@ -4,8 +4,8 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, Field
 
-from stommel.station.planner.fields import PlanField
-from stommel.station.planner.plan import StationPlan
+from stommel.plans.fields import PlanField
+from stommel.plans.plan import StationPlan
 
 Number = Annotated[int, Field(ge=1, le=250)]
 MOST_ORDERS = 500_000

@@ -9,14 +9,14 @@ from stommel.errors import FileError
 from stommel.files.sentences import validated
 from stommel.geometry.geodesics import Place
 from stommel.planning.vehicle_limits import vehicle_limits
-from stommel.station.planner.comparison import ComparedDive, compared
-from stommel.station.planner.expected_water import ocean_at
-from stommel.station.planner.fields import plan_fields
-from stommel.station.planner.flown import current_of_last_dive, held_mission, neutral_density
-from stommel.station.planner.plan import StationPlan
-from stommel.station.planner.problems import PlanError, plan_from
-from stommel.station.planner.resolving import resolved
-from stommel.station.planner.templates import DEFAULT_START, place_row, templates
+from stommel.plans.comparison import ComparedDive, compared
+from stommel.plans.expected_water import ocean_at
+from stommel.plans.fields import plan_fields
+from stommel.plans.flown import current_of_last_dive, held_mission, neutral_density
+from stommel.plans.plan import StationPlan
+from stommel.plans.problems import PlanError, plan_from
+from stommel.plans.resolving import resolved
+from stommel.plans.templates import DEFAULT_START, place_row, templates
 from stommel.station.station import Station
 from stommel.station.web.access import Pilot, Viewer
 from stommel.station.web.errors import refusal

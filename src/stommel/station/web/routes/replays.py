@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Depends, Path
 from pydantic import BaseModel, ConfigDict, Field
 
-from stommel.station.archive.times import GREATEST_TIME
+from stommel.archive.times import GREATEST_TIME
 from stommel.station.people.roles import Role, User
 from stommel.station.replay.course import LEAST_SPEED, MOST_SPEED
 from stommel.station.replay.replay import Replay

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from fastapi import APIRouter, Query
 from pydantic import BaseModel
 
-from stommel.station.archive.series import FEWEST_POINTS, MOST_POINTS
+from stommel.archive.series import FEWEST_POINTS, MOST_POINTS
 from stommel.station.channels import CHANNELS, channel_named
 from stommel.station.track import Track, read_track
 from stommel.station.web.access import Viewer

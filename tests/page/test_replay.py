@@ -21,7 +21,10 @@ def none_before(past: Past) -> None:
 
 def begun(page: Any, past: Past, speed: str = "60") -> Any:
     """A replay of the first two hours."""
+    from playwright.sync_api import expect
+
     page.goto(f"{past.address}/#/vehicle/1/replay?begin={past.begin:.0f}&end={past.begin + 7200:.0f}")
+    expect(page.get_by_role("textbox", name="From")).not_to_have_value("")
     page.get_by_role("spinbutton", name="Speed").fill(speed)
     page.get_by_role("button", name="Start the replay").click()
     page.locator("[data-panel] canvas").first.wait_for()

@@ -10,7 +10,7 @@ from stommel.archive import ArchiveBusyError
 from stommel.errors import StommelError
 from stommel.station.station import Station
 from stommel.station.vehicles import asking
-from stommel.station.vehicles.mission_rows import MissionRows
+from stommel.station.vehicles.mission_rows import MissionRow, MissionRows
 from stommel.station.vehicles.missions import MissionError
 from stommel.station.vehicles.opening import VehicleError
 from tests.station.client import Client
@@ -123,6 +123,15 @@ def test_an_archive_that_is_busy_for_a_moment_loses_no_word_of_a_mission(
         history = client.get(f"/vehicles/1/missions/{row['id']}")["history"]
         assert [step["state"] for step in history] == ["waiting", "sending", "refused"]
         assert failed == [state]
+
+
+def test_a_mission_that_is_given_before_the_first_look_is_not_told_as_interrupted(tmp_path: Path) -> None:
+    with served() as vehicle, station(tmp_path, vehicle.address, start=False) as found:
+        line = found.vehicles[1]
+        row = MissionRow(0, 1, line.clock.now(), "ada", "Another way", "", OTHER, None, "waiting")
+        MissionRows(found.archive).add(row, "waits to be sent")
+        found.missions._followers[1].look(line, line.clock.link_now())
+        assert states(found) == [("Another way", "waiting")]
 
 
 def test_a_mission_that_a_busy_line_does_not_take_waits_for_nothing(

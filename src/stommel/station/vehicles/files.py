@@ -48,7 +48,8 @@ class Files:
     def follow(self, line: VehicleLine) -> None:
         """Take in a vehicle, before its line is started."""
         name = vehicle_folder(Path(), line.vehicle).name
-        follower = self._followers[line.vehicle] = FileFollower(self._rows, self._folder, name, self._tell)
+        left = self._rows.open_ones(line.vehicle)
+        follower = self._followers[line.vehicle] = FileFollower(self._rows, self._folder, name, self._tell, left)
         line.followers.append(follower)
 
     def listing(self, vehicle: int, folder: str) -> Sequence[Entry]:
@@ -157,6 +158,7 @@ class Files:
                 follower.keep_content(row.id, content)
             ask(line, lambda end, _t: follower.begin(end, row, content))
         except (OSError, StommelError) as error:
+            follower.drop_content(row.id)
             self._rows.change(row._replace(state=FAILED, reason=str(error)))
             raise TransferError(f"{row.path}: {error}") from None
         self._tell(row)

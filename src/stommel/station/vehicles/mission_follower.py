@@ -3,7 +3,7 @@
 import hashlib
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,7 +19,6 @@ from stommel.station.vehicles.mission_rows import (
     ABOARD,
     FAILED,
     INTERRUPTED,
-    OPEN,
     REFUSED,
     REPLACED,
     SENDING,
@@ -78,9 +77,13 @@ class MissionFollower:
         Of the vehicle, for orders that are fetched from it.
     tell
         Is called when a mission has changed.
+    left
+        Missions that were on their way when the station stopped; they are told as interrupted.
     """
 
-    def __init__(self, rows: MissionRows, folder: Path, tell: Callable[[int, int | None], None]) -> None:
+    def __init__(
+        self, rows: MissionRows, folder: Path, tell: Callable[[int, int | None], None], left: Sequence[MissionRow]
+    ) -> None:
         self._rows, self._folder, self._tell = rows, folder, tell
         self._due = 0.0
         self._queue: deque[Task] = deque()
@@ -91,7 +94,7 @@ class MissionFollower:
         """When that was, by the vehicle's clock [s since 1970]."""
         self.words = "the vehicle has not been asked yet"
         """Why it is not known which orders it holds, or what the last request came to."""
-        self._is_new = True
+        self._left = list(left)
         self._again_at = float("-inf")
         """When what was refused under water is tried again [s]."""
         self._asked_for: object = ()
@@ -119,10 +122,9 @@ class MissionFollower:
         if real < self._due:
             return
         self._due = real + EVERY
-        if self._is_new:
-            for row in self._rows.in_states(line.vehicle, *OPEN):
-                self._rows.change(row.id, INTERRUPTED, STOPPED, line.clock.now())
-            self._is_new = False
+        while self._left:
+            self._rows.change(self._left[-1].id, INTERRUPTED, STOPPED, line.clock.now())
+            self._left.pop()
         if self.current is not None and (outcome := line.end.orders.outcome) is not None:
             self._finish(line, self.current, outcome, t)
             self.current = None  # not before the archive has it

@@ -14,7 +14,7 @@ from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.mission_follower import MOST_WAITING, MissionFollower, Task
-from stommel.station.vehicles.mission_rows import FAILED, WAITING, MissionRow, MissionRows, MissionState
+from stommel.station.vehicles.mission_rows import FAILED, OPEN, WAITING, MissionRow, MissionRows, MissionState
 from stommel.station.vehicles.opening import MissingError, VehicleError, vehicle_folder
 
 
@@ -40,7 +40,8 @@ class Missions:
     def follow(self, line: VehicleLine) -> None:
         """Take in a vehicle, before its line is started."""
         folder = vehicle_folder(line.folder, line.vehicle) / "orders"
-        follower = self._followers[line.vehicle] = MissionFollower(self._rows, folder, self._tell)
+        left = self._rows.in_states(line.vehicle, *OPEN)
+        follower = self._followers[line.vehicle] = MissionFollower(self._rows, folder, self._tell, left)
         line.followers.append(follower)
 
     def upload(

@@ -16,7 +16,7 @@ from stommel.station.vehicles.asking import ask
 from stommel.station.vehicles.file_follower import MOST_OPEN, FileFollower, told
 from stommel.station.vehicles.file_rows import DOWNLOAD, FAILED, GOING, UPLOAD, FileRow, FileRows
 from stommel.station.vehicles.line import VehicleLine
-from stommel.station.vehicles.opening import MissingError, VehicleError, vehicle_folder
+from stommel.station.vehicles.opening import LateError, MissingError, VehicleError, vehicle_folder
 
 LISTED_WITHIN = 20.0
 """Time in which a vehicle that is heard has told a folder [s]."""
@@ -157,6 +157,8 @@ class Files:
             if content is not None:
                 follower.keep_content(row.id, content)
             ask(line, lambda end, _t: follower.begin(end, row, content))
+        except LateError:  # it may have begun
+            raise
         except (OSError, StommelError) as error:
             follower.drop_content(row.id)
             self._rows.change(row._replace(state=FAILED, reason=str(error)))

@@ -97,7 +97,7 @@ def stored_texts(
 def stored_dives(
     connection: Connection, vehicle: int, *, begin: float = 0.0, end: float = GREATEST_TIME
 ) -> list[DiveRow]:
-    """The dives of a vehicle that touch the range from `begin` to `end`, in order of time: a new mission counts from 1 again."""
+    """The dives of a vehicle that touch the range from `begin` to `end`, by time: each mission counts from 1."""
     of = dives.c
     query = (
         select(dives)

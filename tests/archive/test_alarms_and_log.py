@@ -16,7 +16,7 @@ T0 = 1_700_000_000.0
 def test_alarms_are_added_once_cleared_and_acknowledged(archive: Archive) -> None:
     archive.know(1, "Zhong", "zju")
     history = History(archive)
-    raised = Alarm(None, 1, "limit:depth_m:high", "Depth above 200 m", "critical", T0, 203.0)
+    raised = Alarm(None, 1, "limit:depth_m:high", "Depth greater than 200 m", "critical", T0, 203.0)
     own = Alarm(None, None, "alerts_failing", "Alerts do not go out", "warning", T0 + 1.0)
     number, other = history.add(raised), history.add(own)
     assert history.add(raised) == number

@@ -70,6 +70,14 @@ def test_a_dive_is_completed_by_a_later_row(archive: Archive) -> None:
     assert archive.dives(1, begin=T + 10) == []
 
 
+def test_dives_of_a_new_mission_replace_none_of_the_one_before(archive: Archive) -> None:
+    """A vehicle counts the dives of each mission from 1."""
+    first = [DiveRow(1, T, T + 9, greatest_depth_m=80.0), DiveRow(2, T + 10, T + 19)]
+    archive.store(1, Batch(dives=first))
+    archive.store(1, Batch(dives=[DiveRow(1, T + 30, T + 39, greatest_depth_m=20.0)]))
+    assert archive.dives(1) == [*first, DiveRow(1, T + 30, T + 39, greatest_depth_m=20.0)]
+
+
 def test_numbers_that_are_none_are_left_out_and_their_frame_kept(archive: Archive) -> None:
     bad = [("a", T, math.nan), ("a", T + 1, math.inf), ("a", math.nan, 1.0), ("a", -1.0, 1.0), ("a", 1e18, 1.0)]
     archive.store(1, Batch([frame(1)], [*bad, ("a", T + 2, 5.0)]))

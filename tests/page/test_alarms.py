@@ -35,7 +35,7 @@ def test_an_alarm_comes_by_itself_sounds_and_is_acknowledged(page: Any, past: Pa
     before = page.evaluate("window.tones")
     assert before == 1, "the switch lets one hear that there is a sound"
     past.speaker.say("GLIDER_STATE", time_boot_ms=1, depth=230.5, alarms=0)
-    row = page.get_by_role("region", name=NEEDS).get_by_role("row", name="Depth above 200 m")
+    row = page.get_by_role("region", name=NEEDS).get_by_role("row", name="Depth greater than 200 m")
     row.wait_for()
     page.wait_for_timeout(300)
     assert page.evaluate("window.tones") >= before + 2
@@ -51,7 +51,7 @@ def test_an_alarm_comes_by_itself_sounds_and_is_acknowledged(page: Any, past: Pa
     assert (told["acknowledged_by"], told["note"], told["cleared"]) == ("local", "Sensor drifts.\nWatching it.", None)
 
     past.speaker.say("GLIDER_STATE", time_boot_ms=2, depth=20.0, alarms=0)
-    page.get_by_role("region", name=PAST).get_by_role("row", name="Depth above 200 m").wait_for()
+    page.get_by_role("region", name=PAST).get_by_role("row", name="Depth greater than 200 m").wait_for()
     screenshot("alarms-over")
 
 

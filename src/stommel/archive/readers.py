@@ -97,13 +97,13 @@ def stored_texts(
 def stored_dives(
     connection: Connection, vehicle: int, *, begin: float = 0.0, end: float = GREATEST_TIME
 ) -> list[DiveRow]:
-    """The dives of a vehicle that touch the range from `begin` to `end`, in order of their numbers."""
+    """The dives of a vehicle that touch the range from `begin` to `end`, by time: each mission counts from 1."""
     of = dives.c
     query = (
         select(dives)
         .where(of.vehicle_id == vehicle, of.t_begin_us <= microseconds(end))
         .where(func.coalesce(of.t_end_us, microseconds(GREATEST_TIME)) >= microseconds(begin))
-        .order_by(of.dive)
+        .order_by(of.t_begin_us, of.dive)
     )
     return [_dive(row) for row in connection.execute(query)]
 

@@ -129,7 +129,7 @@ dives = Table(
     metadata,
     _vehicle(key=True),
     Column("dive", BigInteger, primary_key=True, autoincrement=False),
-    Column("t_begin_us", BigInteger, nullable=False),
+    Column("t_begin_us", BigInteger, primary_key=True, autoincrement=False),
     Column("t_end_us", BigInteger),
     Column("latitude_begin", Double),
     Column("longitude_begin", Double),

@@ -49,7 +49,7 @@ def write_batch(
     _write_samples(connection, vehicle, batch.samples, numbers_of)
     text_rows = [(vehicle, microseconds(t), severity, _storable(words)) for t, severity, words in batch.texts]
     insert_rows(connection, texts, _TEXT, text_rows)
-    dive_rows = {row.dive: _dive(vehicle, row) for row in batch.dives}
+    dive_rows = {(row.dive, microseconds(row.t_begin)): _dive(vehicle, row) for row in batch.dives}
     insert_rows(connection, dives, _DIVE, list(dive_rows.values()), "replace")
     ctd_rows = {microseconds(row.t): (vehicle, microseconds(row.t), *row[1:]) for row in batch.ctd}
     insert_rows(connection, ctd, _CTD, list(ctd_rows.values()), "replace")

@@ -32,6 +32,7 @@ _PATTERNS = {
     "^[A-Za-z][A-Za-z0-9_-]*$": "must begin with a letter, and go on with letters, digits, _ and -",
     "^[0-9a-f]{64}$": "must be a SHA-256 digest, 64 digits and letters a to f",
     PRINTABLE: "must not have control characters",
+    r"\S": "must not be blank",
 }
 """What each pattern of a text means."""
 
@@ -47,7 +48,7 @@ _PLAIN = {
     "path_type": "must be the name of a file or folder, as text",
     "string_too_long": "must be text of at most {max_length} characters",
     "string_too_short": "must not be empty",
-    "too_long": "must be a list of {max_length}",
+    "too_long": "must be a list of at most {max_length}",
     "too_short": "must be a list of at least {min_length}",
 }
 """What is allowed, by kind of error."""
@@ -134,7 +135,7 @@ def _rarely(detail: ErrorDetails) -> str:
     kind, context = detail["type"], detail.get("ctx", {})
     if kind == OWN_WORDS:
         return detail["msg"]
-    if kind == "literal_error":
+    if kind in ("literal_error", "enum"):
         return _one_of(detail["input"], context["expected"])
     if kind == "string_pattern_mismatch":
         return _PATTERNS.get(context["pattern"], f"must match {context['pattern']}")

@@ -124,7 +124,7 @@ class Station:
         news = VehicleNews(settings, self.archive, self.hub, self._complete)
         line = VehicleLine(settings, self.settings.folder, self.archive, self._committed)
         self.hub.open(number, line.clock.now, self.archive.latest(number))
-        line.followers.append(news)
+        line.tellers.append(news)
         self.commands.follow(line)
         self.parameters.follow(line)
         self.missions.follow(line)

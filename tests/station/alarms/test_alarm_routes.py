@@ -73,7 +73,7 @@ def test_a_vehicle_too_deep_raises_an_alarm_that_somebody_acknowledges(
     until(lambda: len(client.get("/alarms", open=True)) == 2)
     told = [news.collect() for _ in range(20)]
     rows = {row["key"]: row for row in client.get("/alarms", vehicle=1)}
-    assert rows["limit:depth_m:high"]["words"] == "Depth above 200 m"
+    assert rows["limit:depth_m:high"]["words"] == "Depth greater than 200 m"
     assert rows["limit:depth_m:high"]["value"] == 230.5
     assert rows["vehicle:too deep"]["severity"] == "critical"
     assert rows["limit:depth_m:high"] in [event["data"] for event in told if event and event.get("kind") == "alarm"]

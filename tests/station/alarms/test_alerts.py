@@ -26,7 +26,7 @@ from stommel.station.alarms.webhook_way import SIGNATURE
 from tests.station.alarms.receivers import MailReceiver, certificate_in, mail_server, web_server
 
 T0 = 1_700_000_000.0
-DEEP = Alarm(1, 1, "limit:depth_m:high", "Depth above 200 m", "critical", T0, 203.0)
+DEEP = Alarm(1, 1, "limit:depth_m:high", "Depth greater than 200 m", "critical", T0, 203.0)
 SENDER = Sender("Test station", lambda number: f"Zhong {number}", "https://station.example.org/")
 
 
@@ -83,10 +83,10 @@ def test_words_are_one_line_each_whatever_an_alarm_is_called() -> None:
     nasty = replace(DEEP, words="Depth\r\nBcc: all@example.org\x00 " + 500 * "x")
     alerts = [Alert("raised", nasty), Alert("cleared", replace(DEEP, severity="notice", cleared=T0 + 60.0))]
     assert "\n" not in subject(alerts, SENDER)
-    assert subject(alerts[1:], SENDER) == "[Test station] Over: Depth above 200 m (Zhong 1)"
+    assert subject(alerts[1:], SENDER) == "[Test station] Over: Depth greater than 200 m (Zhong 1)"
     lines = text(alerts, SENDER).splitlines()
     assert len(lines) == 4
-    assert lines[1] == "Over: Depth above 200 m (Zhong 1), 2023-11-14 22:13:20 UTC to 2023-11-14 22:14:20 UTC"
+    assert lines[1] == "Over: Depth greater than 200 m (Zhong 1), 2023-11-14 22:13:20 UTC to 2023-11-14 22:14:20 UTC"
     assert lines[3] == "Page of the station: https://station.example.org/"
 
 
@@ -156,7 +156,7 @@ def test_an_e_mail_goes_out_encrypted_with_a_login(tls: str, tmp_path: Path) -> 
         until(lambda: receiver.mails)
         alerts.stop()
     mail = email.message_from_bytes(receiver.mails[0], policy=policy.default)
-    assert mail["Subject"] == "[Test station] Critical: Depth above 200 m (Zhong 1)"
+    assert mail["Subject"] == "[Test station] Critical: Depth greater than 200 m (Zhong 1)"
     assert mail["To"] == "pilot@example.org"
     assert "2023-11-14 22:13:20 UTC" in mail.get_content()
     assert receiver.users == ["station"]

@@ -152,7 +152,7 @@ def test_a_defect_in_one_vehicle_does_not_silence_the_others(archive: Archive) -
 def test_limits_are_kept_changed_and_taken_away(archive: Archive) -> None:
     scene = Scene(archive)
     scene.alarms.put_limit(1, DEPTH.model_copy(update={"high": 100.0}), "ana")
-    assert [row.words for row in scene.samples(("depth_m", 1.0, 150.0))] == ["Depth_m above 100 m"]
+    assert [row.words for row in scene.samples(("depth_m", 1.0, 150.0))] == ["Depth_m greater than 100 m"]
     assert Scene(archive).alarms.limits_of(1)[0].high == 100.0
     assert scene.alarms.remove_limit(1, "depth_m", "ana")
     assert not scene.alarms.remove_limit(1, "depth_m", "ana")

@@ -46,8 +46,8 @@ def test_each_side_has_an_alarm_of_its_own_with_words_for_people() -> None:
     assert [(change.key, change.raised) for change in told] == [
         ("limit:depth_m:high", True), ("limit:depth_m:low", True), ("limit:depth_m:high", False),
     ]  # fmt: skip
-    assert told[0].words == "Depth above 200 m"
-    assert {change.words for change in told if change.key.endswith("low")} == {"Depth below 1 m"}
+    assert told[0].words == "Depth greater than 200 m"
+    assert {change.words for change in told if change.key.endswith("low")} == {"Depth less than 1 m"}
     assert {change.severity for change in told} == {"critical"}
 
 

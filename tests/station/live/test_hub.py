@@ -180,3 +180,13 @@ def test_many_readers_cost_who_brings_little() -> None:
         hub.publish(Samples(1, 100.0, batch))
     assert time.monotonic() - began < 3.0
     assert len(readers) == 200
+
+
+def test_a_clock_that_was_set_back_leaves_no_value_standing() -> None:
+    """A simulated glider that is started anew begins its world again: what it tells now is the latest."""
+    hub = hub_of()
+    hub.open(1, lambda: 100.0, {"depth_m": (3000.0, 7.0)})
+    hub.publish(samples("depth_m", (99.0, 1.0)))
+    assert hub.values(1)["depth_m"] == (99.0, 1.0)
+    hub.publish(samples("depth_m", (98.0, 2.0)))
+    assert hub.values(1)["depth_m"] == (99.0, 1.0), "what comes late is not the latest"

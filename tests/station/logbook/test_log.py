@@ -32,7 +32,7 @@ def filled(station: Station) -> None:
     """One of each kind at the same second, and an alarm of another vehicle."""
     us = round(T0 * 1e6)
     alarm = {
-        "key": "k", "words": "Depth above 200 m", "severity": "critical", "raised_us": us, "cleared_us": us,
+        "key": "k", "words": "Depth greater than 200 m", "severity": "critical", "raised_us": us, "cleared_us": us,
         "acknowledged_us": us, "acknowledged_by": "ana", "note": "seen it",
     }  # fmt: skip
     command = {
@@ -97,7 +97,7 @@ def test_everything_about_a_vehicle_is_in_one_list(station: Station, client: Cli
     page = client.get("/vehicles/1/log")
     told = [(entry["kind"], entry["user"], entry["words"], entry["state"]) for entry in page["entries"]]
     assert told == [
-        ("alarm", None, "Depth above 200 m", "over, seen by ana: seen it"),
+        ("alarm", None, "Depth greater than 200 m", "over, seen by ana: seen it"),
         ("command", "ben", "Command surface: why 3", "done: executed"),
         ("mission", "ana", "Mission Zhoushan", "aboard"),
         ("note", "ana", "Launched from the pier", None),

@@ -105,6 +105,7 @@ def test_a_ts_diagram_has_two_water_masses_and_lines_between(client: Client) -> 
     [
         ("section", {"variable": "gold"}), ("section", {"cell_m": 0.01}), ("section", {"cell_m": "nan"}),
         ("ts", {"begin": -1}), ("profiles", {"end": 1e30}), ("profiles/0", {}), ("profiles/x", {}),
+        *((path, {"begin": 2.0, "end": 1.0}) for path in ("dives", "profiles", "section", "ts", "data.csv", "data.nc")),
     ],
 )  # fmt: skip
 def test_wrong_questions_are_refused(client: Client, path: str, query: dict[str, object]) -> None:

@@ -164,3 +164,24 @@ def test_a_follower_that_fails_ends_nothing(tmp_path: Path) -> None:
         vehicle.say("GLIDER_STATE", time_boot_ms=2, depth=2.0)
         until(lambda: found.hub.values(1).get("depth_m", (0, 0))[1] == 2.0)
         until(lambda: "HEARTBEAT" in vehicle.names())
+
+
+def test_people_see_that_the_archive_fails_while_it_does(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whoever watches is told at once by the vehicle's summary, not when the archive is well again."""
+
+    def told() -> set[str]:
+        while (message := news.collect()) is not None:
+            if message["type"] == "summary":
+                heard.append({alarm["key"] for alarm in message["summary"]["alarms"]})
+        return heard[-1] if heard else set()
+
+    heard: list[set[str]] = []
+    with speaker() as vehicle, station(tmp_path, vehicle.address) as found:
+        news = found.hub.watch()
+        vehicle.connect()
+        vehicle.say("HEARTBEAT", type=12)
+        until(lambda: came(found) == 1)
+        with monkeypatch.context() as broken:
+            fail(found.archive, broken)
+            vehicle.say("HEARTBEAT", type=12)
+            until(lambda: "archive_failing" in told())

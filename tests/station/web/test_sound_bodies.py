@@ -39,3 +39,18 @@ def test_a_note_in_any_script_of_the_world_comes_back(local: httpx.Client) -> No
     words = "Låg strøm; 海流 0.3 m/s 😀\nsecond line"
     assert local.post("/api/notes", json={"vehicle": 1, "words": words}).status_code in (200, 201)
     assert [row["words"] for row in local.get("/api/notes?vehicle=1").json()] == [words]
+
+
+@pytest.mark.parametrize(
+    ("kind", "body", "words"),
+    [
+        ("application/x-www-form-urlencoded", b'{"words": "x"}', "the body is not marked as JSON"),
+        ("application/json", b"null", "the body must be an object"), ("application/json", b"[]", "must be an object"),
+        ("application/json", b'{"words": "  "}', "words = '  ': must not be blank"),
+    ],
+)  # fmt: skip
+def test_a_body_of_another_kind_is_told_what_is_wanted(local: httpx.Client, kind: str, body: bytes, words: str) -> None:
+    """A script that forgets the header of its body is told so."""
+    answer = local.post("/api/notes", content=body, headers={"Content-Type": kind})
+    assert answer.status_code == 422
+    assert words in answer.json()["detail"]["reason"]

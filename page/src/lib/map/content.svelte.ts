@@ -7,6 +7,7 @@ import type { MapArrow, MapLayer, MapWaypoint, Place } from './types';
 
 interface DiveRow {
   dive: number;
+  t_begin: number;
   latitude_begin: number | null;
   longitude_begin: number | null;
   latitude_end: number | null;
@@ -83,7 +84,7 @@ export class MapContent {
   private async loadDives(): Promise<void> {
     const rows = await api.get<DiveRow[]>(`/vehicles/${this.vehicle}/dives`).catch(() => undefined);
     if (!Array.isArray(rows)) return;
-    const newest = [...rows].sort((a, b) => a.dive - b.dive).slice(-NEWEST_ARROWS);
+    const newest = [...rows].sort((a, b) => a.t_begin - b.t_begin).slice(-NEWEST_ARROWS);
     this.arrows = newest.flatMap((row, index) => arrow(row, index === newest.length - 1));
   }
 }

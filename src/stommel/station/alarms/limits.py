@@ -74,7 +74,7 @@ def limit_key(channel: str, side: Side) -> str:
 
 
 def limit_words(limit: Limit, side: Side, naming: Naming) -> str:
-    """What the alarm of one side says."""
+    """What the alarm of one side says; nothing is `above` a depth, which to a sailor is shallower."""
     words, unit = naming(limit.channel)
     than = f"{limit.sides()[side]:.10g} {unit}".rstrip()
-    return f"{words[:1].upper()}{words[1:]} {'below' if side == 'low' else 'above'} {than}"
+    return f"{words[:1].upper()}{words[1:]} {'less' if side == 'low' else 'greater'} than {than}"

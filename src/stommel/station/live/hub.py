@@ -13,6 +13,9 @@ MOST_CHANNELS = 200
 MOST_READERS = 2000
 """Subscriptions at a time."""
 
+AHEAD = 60.0
+"""A value from so far after now was told before the vehicle's clock was set back: whatever comes stands for it [s]."""
+
 
 class SubscriptionError(StommelError):
     """A subscription that cannot be."""
@@ -74,7 +77,7 @@ class Hub:
             latest = self._latest.setdefault(event.vehicle, {})
             for key, t, value in event.samples:
                 known = latest.get(key)
-                if known is None or t >= known[0]:
+                if known is None or t >= known[0] or known[0] > event.now + AHEAD:
                     latest[key] = (t, value)
             readers = self._readers.get(event.vehicle, ())
         for reader in readers:

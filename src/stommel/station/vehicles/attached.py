@@ -66,10 +66,10 @@ class VehicleNews:
             self._hub.publish(Happening("text", self.vehicle, told))
 
     def _take_dive(self, dive: DiveRow) -> None:
-        """Keep a dive, in place of what was known of it: its summary is said again and again."""
+        """Keep a dive, in place of what was known of it: its summary is said again, and a new mission counts anew."""
         is_known = False
         for k, known in enumerate(self._dives):
-            if known.dive == dive.dive:
+            if (known.dive, known.t_begin) == (dive.dive, dive.t_begin):
                 self._dives[k], is_known = dive, True
         if not is_known:
             self._dives.append(dive)

@@ -81,6 +81,9 @@ class VehicleLine:
             raise
         self.ingest = Ingest(self.vehicle, self.clock, self.end.heard)
         self.followers: list[Follower] = []
+        """Looked at when all that came is kept."""
+        self.tellers: list[Follower] = []
+        """Looked at while the archive fails too: people shall know of it then."""
         self.archive_reason = ""
         """Why what comes is not kept, in words."""
         self.failures = 0
@@ -175,7 +178,9 @@ class VehicleLine:
             self.ingest.look_at_link(self.end.link(t), t)
         kept = self._keep(real) and not self.ingest.is_early
         if kept:
-            self._follow(t)
+            self._follow(t, self.followers)
+        if kept or self.archive_reason:
+            self._follow(t, self.tellers)
         if transport is not None:
             self._speak(transport, real, t, kept=kept)
         self._keep_clock(real)
@@ -235,8 +240,8 @@ class VehicleLine:
         self._committed(self, batch)
         return True
 
-    def _follow(self, t: float) -> None:
-        for follower in list(self.followers):
+    def _follow(self, t: float, followers: list[Follower]) -> None:
+        for follower in list(followers):
             try:
                 follower.look(self, t)
             except ArchiveRequestError as error:  # no later try would help

@@ -144,6 +144,12 @@ def _problem(detail: dict[str, Any]) -> dict[str, Any]:
     if kind == "json_invalid":
         return detail_of("the body is no JSON", allowed="JSON")["detail"]
     key = dotted(place[1:] if place and place[0] in _PLACES else place) or None
+    if isinstance(detail["input"], bytes):
+        return detail_of("the body is not marked as JSON", "content-type", None, "content-type: application/json")[
+            "detail"
+        ]
+    if kind in ("model_attributes_type", "model_type", "dict_type"):
+        return detail_of(f"{key or 'the body'} must be an object", key, _short(detail["input"]), "{...}")["detail"]
     if kind == "missing":
         what = f"{key} is missing" if key else "the body is missing"
         return detail_of(what, key, None, "a value")["detail"]

@@ -93,7 +93,7 @@ def _make_dives() -> None:
         "dives",
         sa.Column("vehicle_id", sa.Integer(), nullable=False),
         sa.Column("dive", sa.BigInteger(), autoincrement=False, nullable=False),
-        sa.Column("t_begin_us", sa.BigInteger(), nullable=False),
+        sa.Column("t_begin_us", sa.BigInteger(), autoincrement=False, nullable=False),
         sa.Column("t_end_us", sa.BigInteger()),
         sa.Column("latitude_begin", sa.Double()),
         sa.Column("longitude_begin", sa.Double()),
@@ -104,7 +104,7 @@ def _make_dives() -> None:
         sa.Column("current_east_m_s", sa.Double()),
         sa.Column("energy_j", sa.Double()),
         sa.ForeignKeyConstraint(["vehicle_id"], ["vehicles.id"], name="fk_dives_vehicle_id"),
-        sa.PrimaryKeyConstraint("vehicle_id", "dive", name="pk_dives"),
+        sa.PrimaryKeyConstraint("vehicle_id", "dive", "t_begin_us", name="pk_dives"),
     )
 
 

@@ -39,6 +39,14 @@ Begin = Annotated[float, Query(ge=0, le=LATEST, description="From when on [s sin
 End = Annotated[float, Query(ge=0, le=LATEST, description="Until when [s since 1970].")]
 
 
+def _in_order(begin: Begin = 0.0, end: End = LATEST) -> None:
+    if end < begin:
+        raise refusal(422, "the range ends before it begins", key="end", value=end, allowed=f"at least {begin:.10g}")
+
+
+InOrder = Depends(_in_order)
+
+
 def _records(request: Request, station: TheStation) -> SampleRecords:
     """Kept with the application: what was read stays read."""
     state = request.app.state
@@ -131,7 +139,7 @@ class Diagram(BaseModel):
     lines: list[DensityLineModel]
 
 
-@router.get("/vehicles/{vehicle}/dives")
+@router.get("/vehicles/{vehicle}/dives", dependencies=[InOrder])
 def read_dives(line: Line, station: TheStation, _user: Viewer, begin: Begin = 0.0, end: End = LATEST) -> list[Dive]:
     """Dives that began between two times."""
     d = schema.dives.c
@@ -144,7 +152,7 @@ def read_dives(line: Line, station: TheStation, _user: Viewer, begin: Begin = 0.
         return [_dive(dict(row)) for row in rows]
 
 
-@router.get("/vehicles/{vehicle}/profiles")
+@router.get("/vehicles/{vehicle}/profiles", dependencies=[InOrder])
 def read_profiles(
     line: Line, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
 ) -> list[ProfileLine]:
@@ -170,7 +178,7 @@ def read_profile(
     )
 
 
-@router.get("/vehicles/{vehicle}/section")
+@router.get("/vehicles/{vehicle}/section", dependencies=[InOrder])
 def read_section(
     line: Line,
     records: Records,
@@ -197,7 +205,7 @@ def read_section(
     )
 
 
-@router.get("/vehicles/{vehicle}/ts")
+@router.get("/vehicles/{vehicle}/ts", dependencies=[InOrder])
 def read_water_masses(line: Line, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST) -> Diagram:
     """Conservative Temperature against Absolute Salinity, with lines of equal potential density."""
     samples = records.between(line.vehicle, begin, end)
@@ -225,7 +233,7 @@ def read_water_masses(line: Line, records: Records, _user: Viewer, begin: Begin 
     )
 
 
-@router.get("/vehicles/{vehicle}/data.csv", response_class=StreamingResponse)
+@router.get("/vehicles/{vehicle}/data.csv", response_class=StreamingResponse, dependencies=[InOrder])
 def download_csv(
     line: Line, station: TheStation, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
 ) -> StreamingResponse:
@@ -234,7 +242,7 @@ def download_csv(
     return StreamingResponse(_utf8(made), media_type="text/csv", headers=_attachment(line.vehicle, "csv"))
 
 
-@router.get("/vehicles/{vehicle}/data.nc", response_class=FileResponse)
+@router.get("/vehicles/{vehicle}/data.nc", response_class=FileResponse, dependencies=[InOrder])
 def download_netcdf(
     line: Line, station: TheStation, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
 ) -> FileResponse:

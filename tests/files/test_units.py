@@ -41,7 +41,7 @@ PURE = {
     "vehicle_id", "samples", "reserve", "speed_error", "correction",
     # of its radio: shares of packets and bits
     "loss", "bit_error_rate",
-    # of a station: numbers by which a vehicle and a port are called, times real time, limits in the unit of their channel
+    # of a station: numbers by which vehicle and port are called, times real time, limits in the unit of a channel
     "vehicle", "port", "speed", "low", "high", "hysteresis",
     # parameters of the nodes by name, each in the unit that its node's table says
     "motion", "acquisition",

@@ -8,11 +8,15 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from threading import Lock
 
 from stommel.errors import OutputError
 
 _LONGEST_SHOWN = 160
 """Characters of a path in a message."""
+
+_UMASK = Lock()
+"""Held while the mask of new files, which can only be read by setting it, is looked at."""
 
 
 def require_file(path: Path, endings: Sequence[str] = ()) -> None:
@@ -164,7 +168,8 @@ def _take_place(temporary: Path, path: Path) -> None:
     """Make sure that the content is on the disk, then put it under its name."""
     with temporary.open("rb+") as file:
         os.fsync(file.fileno())
-    umask = os.umask(0)
-    os.umask(umask)
+    with _UMASK:  # of the whole process: another thread must not take our 0 for it
+        umask = os.umask(0)
+        os.umask(umask)
     temporary.chmod(0o666 & ~umask)
     temporary.replace(path)

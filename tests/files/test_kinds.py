@@ -43,7 +43,11 @@ def models() -> Iterator[type[BaseModel]]:
                     yield model
 
 
-MODELS = sorted(models(), key=lambda model: f"{model.__module__}.{model.__name__}")
+MODELS = sorted(
+    # answers and questions of the web door are no files; its own tests try them
+    (model for model in models() if not model.__module__.startswith("stommel.station.web.")),
+    key=lambda model: f"{model.__module__}.{model.__name__}",
+)
 
 
 def refusals(model: type[BaseModel], key: str, value: Any) -> list[str]:
@@ -74,7 +78,7 @@ def test_a_field_takes_its_own_kind_alone(model: type[BaseModel]) -> None:
             continue
         for value in (True, 1, 1.5, 1.0, "1", "1.5", "yes", 20260701):
             fits = type(value) in allowed or (type(value) is int and float in allowed)
-            if isinstance(value, str) and datetime in allowed:
+            if isinstance(value, str) and (datetime in allowed or Path in allowed):
                 fits = True
             if not fits:
                 assert refusals(model, key_of(name, field), value), f"{model.__name__}.{name} takes {value!r}"

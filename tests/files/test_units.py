@@ -41,6 +41,8 @@ PURE = {
     "vehicle_id", "samples", "reserve", "speed_error", "correction",
     # of its radio: shares of packets and bits
     "loss", "bit_error_rate",
+    # of a station: numbers by which vehicle and port are called, times real time, limits in the unit of a channel
+    "vehicle", "port", "speed", "low", "high", "hysteresis",
     # parameters of the nodes by name, each in the unit that its node's table says
     "motion", "acquisition",
 }  # fmt: skip
@@ -50,6 +52,8 @@ PURE = {
 def fields() -> Iterator[tuple[str, object]]:
     """Every key of every file that stommel reads, with its type."""
     for module in pkgutil.walk_packages(stommel.__path__, "stommel."):
+        if module.name.startswith("stommel.station.web."):
+            continue  # no files: the API's document says the unit of each field, times are [s since 1970], angles [deg]
         for kind in vars(importlib.import_module(module.name)).values():
             if inspect.isclass(kind) and issubclass(kind, BaseModel) and kind.__module__ == module.name:
                 yield from ((key, field.annotation) for key, field in kind.model_fields.items())

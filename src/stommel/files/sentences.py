@@ -45,6 +45,7 @@ _PLAIN = {
     ),
     **dict.fromkeys(("list_type", "tuple_type"), "must be a list"),
     "string_type": "must be text",
+    "path_type": "must be the name of a file or folder, as text",
     "string_too_long": "must be text of at most {max_length} characters",
     "string_too_short": "must not be empty",
     "too_long": "must be a list of at most {max_length}",

@@ -59,6 +59,14 @@ class MailReceiver:
         self.users: list[str] = []
         self.tls: list[bool] = []
         self.refusals = refusals
+        self.unknown: set[str] = set()
+        """Addresses that it does not take."""
+
+    async def handle_RCPT(self, server: Any, session: Any, envelope: Any, address: str, options: Any) -> str:
+        if address in self.unknown:
+            return "550 nobody of that name"
+        envelope.rcpt_tos.append(address)
+        return "250 thank you"
 
     async def handle_DATA(self, server: Any, session: Any, envelope: Any) -> str:
         if self.refusals:

@@ -186,6 +186,25 @@ def test_a_mail_server_that_fails_is_tried_again_and_told_of(tmp_path: Path) -> 
     assert reports.told == ["e-mail through localhost: answers 451 the disk is full", ""]
 
 
+def test_one_recipient_whom_the_server_does_not_know_floods_nobody(tmp_path: Path) -> None:
+    receiver, reports = MailReceiver(), Reports()
+    receiver.unknown = {"gone@example.org"}
+    with mail_server(receiver) as port:
+        recipients = ("pilot@example.org", "gone@example.org")
+        settings = email_settings(port, tmp_path, tls="none", recipients=recipients)
+        alerts = Alerts(settings, SENDER, reports, waits=[0.01])
+        alerts.start()
+        alerts.take(DEEP)
+        until(lambda: reports.told)
+        time.sleep(0.3)
+        alerts.take(replace(DEEP, cleared=T0 + 1.0))
+        until(lambda: len(receiver.mails) > 1)
+        alerts.stop()
+    subjects = [email.message_from_bytes(mail, policy=policy.default)["Subject"] for mail in receiver.mails]
+    assert len(set(subjects)) == len(subjects) == 2
+    assert reports.told == ["e-mail through localhost: refuses gone@example.org; the others were told"]
+
+
 def test_nobody_at_the_port_is_a_sentence(tmp_path: Path) -> None:
     from tests.support.ports import free_port
 

@@ -1,6 +1,7 @@
 """One pilot at a time holds command of a vehicle, and everybody sees who."""
 
 import threading
+import time
 from pathlib import Path
 from typing import Any
 
@@ -8,6 +9,7 @@ import pytest
 
 from stommel.archive import Archive
 from stommel.station.people.errors import HeldError, PeopleError
+from stommel.station.people.holders import Hold, Holders
 from stommel.station.people.people import People
 from stommel.station.people.roles import Role, User
 from tests.support.station_served import PASSWORD
@@ -93,3 +95,25 @@ def test_a_reason_has_an_end(people: People) -> None:
     people.holders.need(1, PAUL)
     with pytest.raises(PeopleError, match="too long"):
         people.holders.take(1, PIA, "x" * 501)
+
+
+def test_the_last_that_is_told_is_what_is_so(people: People) -> None:
+    """A change that is told late must not be told after the next one."""
+    told, begun, go_on = list[str | None](), threading.Event(), threading.Event()
+
+    def hear(_vehicle: int, hold: Hold | None) -> None:
+        if hold is not None and hold.user == "paul":
+            begun.set()
+            go_on.wait(0.5)
+        told.append(None if hold is None else hold.user)
+
+    holders = Holders(people.users._archive, time.time, hear)
+    first = threading.Thread(target=lambda: holders.take(1, PAUL))
+    first.start()
+    begun.wait(5.0)
+    holders.take(1, PIA, "the watch is over")
+    go_on.set()
+    first.join()
+    held = holders.of(1)
+    assert held is not None
+    assert told[-1] == held.user == "pia"

@@ -10,13 +10,14 @@ from pathlib import Path
 import pytest
 from sqlalchemy import func, select
 
-from stommel.archive import Archive, ArchiveFullError
+from stommel.archive import Archive, ArchiveBusyError, ArchiveFullError, ArchiveRequestError
 from stommel.archive.schema import frames
 from stommel.station.station import Station
 from stommel.station.vehicles import ingest
 from tests.station.client import Client
 from tests.station.speaker import Speaker, speaker, until
 from tests.station.stations import station
+from tests.support.ports import free_port
 
 ASK = {"tc1": 0, "ts1": 123_456_789}
 
@@ -117,6 +118,34 @@ def test_a_row_that_no_archive_takes_does_not_stop_the_rest(tmp_path: Path) -> N
         client.get("/vehicles/1/latest")
         client.get("/vehicles/1/frames")
         assert found.vehicles[1].failures == 0
+
+
+def test_an_archive_that_was_busy_once_is_tried_again_though_the_vehicle_is_silent(tmp_path: Path) -> None:
+    looks = []
+
+    class Unlucky:
+        def look(self, *_: object) -> None:
+            looks.append(True)
+            if len(looks) == 1:
+                raise ArchiveBusyError("archive.sqlite: another program is writing to the archive")
+
+    with station(tmp_path, f"tcp:127.0.0.1:{free_port()}", start=False) as found:
+        found.vehicles[1].followers.append(Unlucky())
+        found.start()
+        until(lambda: len(looks) > 1)
+        until(lambda: not found.vehicles[1].archive_reason)
+
+
+def test_a_row_of_a_follower_that_no_archive_takes_holds_nothing_up(tmp_path: Path) -> None:
+    class Wrong:
+        def look(self, *_: object) -> None:
+            raise ArchiveRequestError("a time of -1 s since 1970")
+
+    with station(tmp_path, f"tcp:127.0.0.1:{free_port()}", start=False) as found:
+        found.vehicles[1].followers.append(Wrong())
+        found.start()
+        until(lambda: "Wrong failed" in found.vehicles[1].failure)
+        assert found.vehicles[1].archive_reason == ""
 
 
 def test_a_follower_that_fails_ends_nothing(tmp_path: Path) -> None:

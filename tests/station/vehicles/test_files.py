@@ -7,7 +7,11 @@ from typing import Any
 
 import pytest
 
+from stommel.archive import ArchiveBusyError
 from stommel.station.station import Station
+from stommel.station.vehicles import asking
+from stommel.station.vehicles.file_rows import FileRow, FileRows
+from stommel.station.vehicles.files import TransferError
 from tests.station.client import Client
 from tests.station.served import Served, served
 from tests.station.speaker import until
@@ -120,6 +124,48 @@ def test_what_is_no_form_and_what_is_not_there_is_told(tmp_path: Path) -> None:
         vehicle.under_water = True
         until(lambda: not found.vehicles[1].status().heard)
         assert "not heard" in client.refused("GET", "/vehicles/1/listing", 409)["reason"]
+
+
+def test_a_whole_file_is_kept_though_the_archive_was_busy_at_its_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    change, failed = FileRows.change, list[str]()
+
+    def busy_once(rows: FileRows, row: FileRow) -> None:
+        if row.is_over and not failed:
+            failed.append(row.state)
+            raise ArchiveBusyError("archive.sqlite: another program is writing to the archive")
+        change(rows, row)
+
+    monkeypatch.setattr(FileRows, "change", busy_once)
+    with served() as vehicle, station(tmp_path, with_log(vehicle).address) as found:
+        id = found.files.download(1, "ada", LOG).id
+        until(lambda: is_whole(found, id))
+        _, place = found.files.stored(1, id)
+        assert place.read_bytes() == CONTENT
+        assert failed == ["whole"]
+
+
+def test_what_was_begun_before_the_first_look_is_begun_once(tmp_path: Path) -> None:
+    """The first look may come after its row is written, and before or after it is begun."""
+    with served() as vehicle, station(tmp_path, vehicle.address, start=False) as found:
+        line, follower = found.vehicles[1], found.files._followers[1]
+        row = FileRows(found.archive).add(FileRow(0, 1, LOG, "download", "ada", line.clock.now(), "going"))
+        follower.look(line, line.clock.link_now())
+        assert follower.transfers == {}
+        follower.begin(line.end, row)
+        begun = follower.transfers[row.id].service
+        follower.look(line, line.clock.link_now())
+        assert follower.transfers[row.id].service is begun
+
+
+def test_what_a_busy_line_does_not_take_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(asking, "ANSWER_WITHIN", 0.1)
+    with served() as vehicle, station(tmp_path, vehicle.address, start=False) as found:
+        with pytest.raises(TransferError, match="nothing was done"):
+            found.files.upload(1, "ada", "inbox/x", b"x")
+        assert [row["state"] for row in found.files.transfers(1, 10)] == ["failed"]
+        assert list((tmp_path / "vehicle-1" / "transfers").iterdir()) == []
 
 
 def test_a_cancelled_transfer_leaves_nothing(tmp_path: Path) -> None:

@@ -6,9 +6,13 @@ from typing import Any
 
 import pytest
 
+from stommel.archive import ArchiveBusyError
 from stommel.errors import StommelError
 from stommel.station.station import Station
+from stommel.station.vehicles import asking
+from stommel.station.vehicles.mission_rows import MissionRow, MissionRows
 from stommel.station.vehicles.missions import MissionError
+from stommel.station.vehicles.opening import VehicleError
 from tests.station.client import Client
 from tests.station.served import Served, served
 from tests.station.speaker import until
@@ -91,6 +95,53 @@ def test_what_the_vehicle_refuses_is_told_in_its_words_and_changes_nothing(tmp_p
         history = client.get(f"/vehicles/1/missions/{row['id']}")["history"]
         assert "must be at most 60 m" in history[-1]["words"]
         assert vehicle.missions.files == [b"the first orders"]
+
+
+@pytest.mark.parametrize("state", ["sending", "refused"])
+def test_an_archive_that_is_busy_for_a_moment_loses_no_word_of_a_mission(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, state: str
+) -> None:
+    """Oracle: the states that a mission takes where the archive is not busy, of the test above."""
+    change, failed = MissionRows.change, list[str]()
+
+    def busy_once(rows: MissionRows, id: int, to: str, *rest: Any) -> None:
+        if to == state and not failed:
+            failed.append(to)
+            raise ArchiveBusyError("archive.sqlite: another program is writing to the archive")
+        change(rows, id, to, *rest)
+
+    monkeypatch.setattr(MissionRows, "change", busy_once)
+    with served() as vehicle, station(tmp_path, vehicle.address) as found:
+
+        def refuse() -> None:
+            raise StommelError("mission: too deep")
+
+        vehicle.missions.check = refuse  # type: ignore[method-assign]
+        client = Client(found)
+        row = upload(client, OTHER)
+        until(lambda: ("Another way", "refused") in states(found))
+        history = client.get(f"/vehicles/1/missions/{row['id']}")["history"]
+        assert [step["state"] for step in history] == ["waiting", "sending", "refused"]
+        assert failed == [state]
+
+
+def test_a_mission_that_is_given_before_the_first_look_is_not_told_as_interrupted(tmp_path: Path) -> None:
+    with served() as vehicle, station(tmp_path, vehicle.address, start=False) as found:
+        line = found.vehicles[1]
+        row = MissionRow(0, 1, line.clock.now(), "ada", "Another way", "", OTHER, None, "waiting")
+        MissionRows(found.archive).add(row, "waits to be sent")
+        found.missions._followers[1].look(line, line.clock.link_now())
+        assert states(found) == [("Another way", "waiting")]
+
+
+def test_a_mission_that_a_busy_line_does_not_take_waits_for_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(asking, "ANSWER_WITHIN", 0.1)
+    with served() as vehicle, station(tmp_path, vehicle.address, start=False) as found:
+        with pytest.raises(VehicleError, match="nothing was done"):
+            found.missions.upload(1, "ada", OTHER, valid_for_s=600.0)
+        assert states(found) == [("Another way", "failed")]
 
 
 def test_what_is_no_mission_is_refused_before_it_goes_to_sea(tmp_path: Path) -> None:

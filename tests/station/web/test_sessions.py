@@ -134,6 +134,14 @@ def test_every_change_is_in_the_audit_log_without_secrets(
     assert [row["entry"] for row in older] == [rows[1]["entry"]]
 
 
+def test_no_password_of_ones_own_is_in_the_audit_log(ada: httpx.Client, paul: httpx.Client) -> None:
+    change = {"password": PASSWORD, "new_password": "another way to the sea"}
+    assert paul.put("/api/session/password", json=change).status_code == 204
+    row = ada.get("/api/audit").json()[0]
+    assert (row["action"], row["user"]) == ("change password", "paul")
+    assert row["detail"]["body"] == {"password": "***", "new_password": "***"}
+
+
 def test_the_log_is_added_to_only(ada: httpx.Client) -> None:
     for method in ("POST", "PUT", "PATCH", "DELETE"):
         assert ada.request(method, "/api/audit").status_code == 405

@@ -49,6 +49,8 @@ def mission_from(
     if _FAULTS in document:
         told = f"{_FAULTS}: only the software in the loop can break; fly this file with `stommel sitl`, or take it out"
         raise FileError([Problem(origin, _FAULTS, told)])
+    if not isinstance(document.get(_RADIO, {}), dict):
+        raise FileError([Problem(origin, _RADIO, f"{_RADIO}: must be a table")])
     # without the software in the loop nobody calls: what the radio is like changes nothing
     document = with_its_plan({key: value for key, value in document.items() if key != _RADIO}, origin, folder)
     scenario = validated(document, ScenarioFile, origin)

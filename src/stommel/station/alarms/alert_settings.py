@@ -7,6 +7,8 @@ from urllib.parse import urlsplit
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
+from stommel.files.kinds import Flag
+from stommel.files.ranges import between
 from stommel.station.alarms.severity import Severity
 
 
@@ -52,7 +54,7 @@ class EmailSettings(_Table):
 
     host: Annotated[str, Field(min_length=1, max_length=253, pattern=r"^[A-Za-z0-9.:_-]+$")]
     """Mail server."""
-    port: Annotated[int, Field(ge=1, le=65_535)] = 587
+    port: Annotated[int, between(1, 65_535)] = 587
     tls: Literal["starttls", "tls", "none"] = "starttls"
     """`tls` from the first byte (port 465), `starttls` after the greeting (587), `none` on this machine only."""
     user: Annotated[str, Field(max_length=254)] = ""
@@ -88,9 +90,9 @@ class AlertSettings(_Table):
 
     least_severity: Severity = "warning"
     """What is less is told to nobody."""
-    quiet_s: Annotated[float, Field(ge=0, le=86_400)] = 900.0
+    quiet_s: Annotated[float, between(0, 86_400)] = 900.0
     """For how long after an alert the same alarm is only counted."""
-    cleared: bool = True
+    cleared: Flag = True
     """Whether the end of an alarm is told as well."""
     email: EmailSettings | None = None
     webhooks: Annotated[tuple[WebhookSettings, ...], Field(max_length=20)] = ()
@@ -99,9 +101,9 @@ class AlertSettings(_Table):
 class AlarmSettings(_Table):
     """`[alarms]`: when a silence is an alarm."""
 
-    surfacing_margin_s: Annotated[float, Field(ge=0, le=604_800)] = 900.0
+    surfacing_margin_s: Annotated[float, between(0, 604_800)] = 900.0
     """For how long after the expected time a surfacing is not yet missed, by the vehicle's clock."""
-    longest_silence_s: Annotated[float, Field(ge=10, le=604_800)] = 600.0
+    longest_silence_s: Annotated[float, between(10, 604_800)] = 600.0
     """For how long a link may be silent without a dive that explains it, by the vehicle's clock."""
-    longest_dive_s: Annotated[float, Field(ge=60, le=2_592_000)] = 43_200.0
+    longest_dive_s: Annotated[float, between(60, 2_592_000)] = 43_200.0
     """For how long it may be silent in a dive whose end nobody knows, as the first one."""

@@ -24,6 +24,10 @@ class DeliveryError(StommelError):
     """An alert did not go out; the message says why."""
 
 
+class PartlyDeliveredError(DeliveryError):
+    """An alert went out, but not to all; it is not sent again, as those who were told would be told for ever."""
+
+
 class Way(Protocol):
     """A way to people: an e-mail server, a webhook."""
 
@@ -125,8 +129,11 @@ class Courier:
         """Try to bring what waits longest."""
         with self._lock:
             together = [self._waiting[place] for place in range(min(len(self._waiting), MOST_TOGETHER))]
+        reason = ""
         try:
             self.way.send(together)
+        except PartlyDeliveredError as error:
+            reason = str(error)
         except DeliveryError as error:
             self._report(self.way.name, str(error))
             return False
@@ -137,5 +144,5 @@ class Courier:
             for alert in together:
                 if self._waiting and self._waiting[0] is alert:
                     self._waiting.popleft()
-        self._report(self.way.name, "")
+        self._report(self.way.name, reason)
         return True

@@ -10,7 +10,7 @@ from email.utils import formatdate, make_msgid
 from stommel.station.alarms.alert_policy import Alert
 from stommel.station.alarms.alert_settings import EmailSettings
 from stommel.station.alarms.alert_words import Sender, subject, text
-from stommel.station.alarms.delivery import PATIENCE_S, DeliveryError, reason_of, secret_of
+from stommel.station.alarms.delivery import PATIENCE_S, DeliveryError, PartlyDeliveredError, reason_of, secret_of
 
 
 class EmailWay:
@@ -30,7 +30,9 @@ class EmailWay:
         Raises
         ------
         DeliveryError
-            It did not go out; also if some recipient was refused.
+            It did not go out.
+        PartlyDeliveredError
+            Some recipients were refused; the others were told.
         """
         try:
             with self._server() as server:
@@ -40,7 +42,7 @@ class EmailWay:
         except (smtplib.SMTPException, ssl.SSLError, OSError, UnicodeError, ValueError) as error:
             raise DeliveryError(f"{self.name}: {_reason(error)}") from error
         if refused:
-            raise DeliveryError(f"{self.name}: refuses {', '.join(refused)}; the others were told")
+            raise PartlyDeliveredError(f"{self.name}: refuses {', '.join(refused)}; the others were told")
 
     @contextmanager
     def _server(self) -> Iterator[smtplib.SMTP]:

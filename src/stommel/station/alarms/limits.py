@@ -5,10 +5,11 @@ from typing import Annotated, Literal, NamedTuple, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from stommel.files.ranges import between
 from stommel.station.alarms.severity import Severity
 from stommel.station.alarms.threshold import Threshold
 
-Value = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False)]
+Value = Annotated[float, between(-1e9, 1e9)]
 Side = Literal["low", "high"]
 
 
@@ -32,9 +33,9 @@ class LimitValues(BaseModel):
     """Least value that is allowed, in the channel's unit."""
     high: Value | None = None
     """Greatest value that is allowed, in the channel's unit."""
-    hysteresis: Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)] = 0.0
+    hysteresis: Annotated[float, between(0, 1e9)] = 0.0
     """How far inside the limit a value must be to clear the alarm, in the channel's unit."""
-    delay_s: Annotated[float, Field(ge=0, le=86_400, allow_inf_nan=False)] = 0.0
+    delay_s: Annotated[float, between(0, 86_400)] = 0.0
     """For how long values must be beyond the limit before the alarm is raised."""
     severity: Severity = "warning"
 

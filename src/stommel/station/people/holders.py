@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from threading import Lock
 
 from sqlalchemy import Connection, select
 
@@ -32,6 +33,8 @@ class Holders:
 
     def __init__(self, archive: Database, clock: Callable[[], float], told: Callable[[int, Hold | None], None]) -> None:
         self._archive, self._clock, self._told = archive, clock, told
+        self._in_order = Lock()
+        """Held from a change until it is told, so that the last that is told is what is so."""
 
     def of(self, vehicle: int) -> Hold | None:
         """Who commands a vehicle."""
@@ -65,6 +68,10 @@ class Holders:
         words = (reason or "").strip()
         if len(words) > LONGEST_REASON:
             raise PeopleError("this reason is too long", "reason", None, f"at most {LONGEST_REASON} characters")
+        with self._in_order:
+            return self._taken(vehicle, user, words)
+
+    def _taken(self, vehicle: int, user: User, words: str) -> Hold:
         with self._archive.writing() as connection:
             before = _hold(connection, vehicle)
             if before is not None and before.user == user.name:
@@ -93,24 +100,25 @@ class Holders:
         HeldError
             Somebody else has it.
         """
-        with self._archive.writing() as connection:
-            now = _hold(connection, vehicle)
-            if now is None:
-                return
-            if now.user != user.name:
-                raise HeldError(f"{now.user} holds command of vehicle {vehicle}, not {user.name}", now.user)
-            connection.execute(holders.delete().where(holders.c.vehicle_id == vehicle))
-        self._told(vehicle, None)
+        with self._in_order:
+            with self._archive.writing() as connection:
+                now = _hold(connection, vehicle)
+                if now is None:
+                    return
+                if now.user != user.name:
+                    raise HeldError(f"{now.user} holds command of vehicle {vehicle}, not {user.name}", now.user)
+                connection.execute(holders.delete().where(holders.c.vehicle_id == vehicle))
+            self._told(vehicle, None)
 
     def leave(self, name: str) -> None:
         """Give up all that somebody holds, who may no longer fly."""
-        with self._archive.writing() as connection:
-            mine = [
-                row.vehicle_id for row in connection.execute(select(holders.c.vehicle_id).where(holders.c.user == name))
-            ]
-            connection.execute(holders.delete().where(holders.c.user == name))
-        for vehicle in mine:
-            self._told(vehicle, None)
+        mine = select(holders.c.vehicle_id).where(holders.c.user == name)
+        with self._in_order:
+            with self._archive.writing() as connection:
+                vehicles = list(connection.execute(mine).scalars())
+                connection.execute(holders.delete().where(holders.c.user == name))
+            for vehicle in vehicles:
+                self._told(vehicle, None)
 
 
 def _hold(connection: Connection, vehicle: int) -> Hold | None:

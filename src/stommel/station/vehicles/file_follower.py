@@ -7,6 +7,8 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from pathlib import Path
 
+from stommel.files.folder_storage import FolderStorage
+from stommel.files.storage import replace_whole
 from stommel.files.whole import sync_names
 from stommel.link.files.download import Download
 from stommel.link.files.folder_disk import FolderDisk
@@ -46,6 +48,8 @@ class Transfer:
     """Of a download."""
     told_at: float = 0.0
     """When it was told last, by the station's clock [s]."""
+    ended: FileRow | None = None
+    """What became of it, until the archive has that."""
 
     @property
     def progress(self) -> Progress:
@@ -66,12 +70,16 @@ class FileFollower:
         Its folder below that, by name.
     tell
         Is called when a transfer has changed.
+    left
+        Transfers that were not over when the station stopped; they go on.
     """
 
-    def __init__(self, rows: FileRows, folder: Path, vehicle: str, tell: Callable[[FileRow], None]) -> None:
+    def __init__(
+        self, rows: FileRows, folder: Path, vehicle: str, tell: Callable[[FileRow], None], left: Sequence[FileRow]
+    ) -> None:
         self._rows, self._folder, self._vehicle, self._tell = rows, folder, vehicle, tell
         self._due = 0.0
-        self._is_new = True
+        self._left = list(left)
         self.transfers: dict[int, Transfer] = {}
         """By number."""
         self._listings: list[tuple[Listing, Future[Sequence[Entry]]]] = []
@@ -108,24 +116,23 @@ class FileFollower:
         OSError
             The disk does not take it.
         """
-        place = self._place(id)
-        place.mkdir(parents=True, exist_ok=True)
-        (place / LOCAL).write_bytes(content)
-        sync_names(place)
+        replace_whole(FolderStorage(self._place(id)), LOCAL, content)
+
+    def drop_content(self, id: int) -> None:
+        """Keep nothing of a transfer that is not begun; in any thread."""
+        shutil.rmtree(self._place(id), ignore_errors=True)
 
     def pause(self, id: int) -> None:
         """Let a transfer rest until somebody resumes it."""
         transfer = self._found(id)
-        transfer.row = transfer.row._replace(state=PAUSED)
-        self._rows.change(transfer.row)
+        self._write(transfer, PAUSED)
         transfer.service.pause()
         self._tell(transfer.row)
 
     def resume(self, id: int, t: float) -> None:
         """Let a transfer go on."""
         transfer = self._found(id)
-        transfer.row = transfer.row._replace(state=GOING)
-        self._rows.change(transfer.row)
+        self._write(transfer, GOING)
         transfer.service.resume(t)
         self._tell(transfer.row)
 
@@ -140,6 +147,11 @@ class FileFollower:
         self._listings.append((end.listing(folder), found))
         return found
 
+    def _write(self, transfer: Transfer, state: str) -> None:
+        row = transfer.row._replace(state=state)
+        self._rows.change(row)
+        transfer.row = row
+
     def _found(self, id: int) -> Transfer:
         if id not in self.transfers:
             raise MissingError(f"transfer {id}: is over, or there is none")
@@ -153,12 +165,14 @@ class FileFollower:
         if real < self._due:
             return
         self._due = real + EVERY
-        if self._is_new:
-            self._go_on(line)
-            self._is_new = False
+        while self._left:
+            self._go_on(line, self._left[-1])
+            self._left.pop()
         for transfer in list(self.transfers.values()):
-            if transfer.service.state.is_over:
-                self._end(line, transfer)
+            if transfer.ended is None and transfer.service.state.is_over:
+                transfer.ended = self._ended(line, transfer)
+            if transfer.ended is not None:
+                self._over(line.end, transfer, transfer.ended)
             else:
                 if transfer.row.state == PAUSED and not transfer.service.is_paused:
                     transfer.service.pause()  # the end resumes all when the vehicle is heard again
@@ -167,15 +181,15 @@ class FileFollower:
                     self._tell(transfer.row)
         self._look_at_listings(line, t)
 
-    def _go_on(self, line: VehicleLine) -> None:
+    def _go_on(self, line: VehicleLine, row: FileRow) -> None:
         """Take up what was not over when the station stopped."""
-        for row in reversed(self._rows.open_ones(line.vehicle)):
-            try:
-                self.begin(line.end, row)
-            except (OSError, VehicleError) as error:
-                self._rows.change(row._replace(state=FAILED, reason=f"cannot go on: {error}"[:300]))
+        try:
+            self.begin(line.end, row)
+        except (OSError, VehicleError) as error:
+            self._rows.change(row._replace(state=FAILED, reason=f"cannot go on: {error}"[:300]))
 
-    def _end(self, line: VehicleLine, transfer: Transfer) -> None:
+    def _ended(self, line: VehicleLine, transfer: Transfer) -> FileRow:
+        """What became of a transfer; a file that is whole is brought to its place."""
         service, row, now = transfer.service, transfer.row, line.clock.now()
         state = {State.WHOLE: WHOLE, State.REFUSED: REFUSED}.get(service.state, FAILED)
         row = row._replace(state=state, reason=service.reason, t=now)
@@ -187,7 +201,7 @@ class FileFollower:
                 row = row._replace(stored_as=self._store(row, service.file.kept_as or LOCAL))
             except OSError as error:
                 row = row._replace(state=FAILED, reason=f"cannot be stored: {error.strerror or error}")
-        self._over(line.end, transfer, row)
+        return row
 
     def _store(self, row: FileRow, name: str) -> str:
         """Bring a whole file to its place by its hash, and return the place below the station's folder."""

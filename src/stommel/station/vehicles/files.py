@@ -16,7 +16,7 @@ from stommel.station.vehicles.asking import ask
 from stommel.station.vehicles.file_follower import MOST_OPEN, FileFollower, told
 from stommel.station.vehicles.file_rows import DOWNLOAD, FAILED, GOING, UPLOAD, FileRow, FileRows
 from stommel.station.vehicles.line import VehicleLine
-from stommel.station.vehicles.opening import MissingError, VehicleError, vehicle_folder
+from stommel.station.vehicles.opening import LateError, MissingError, VehicleError, vehicle_folder
 
 LISTED_WITHIN = 20.0
 """Time in which a vehicle that is heard has told a folder [s]."""
@@ -48,7 +48,8 @@ class Files:
     def follow(self, line: VehicleLine) -> None:
         """Take in a vehicle, before its line is started."""
         name = vehicle_folder(Path(), line.vehicle).name
-        follower = self._followers[line.vehicle] = FileFollower(self._rows, self._folder, name, self._tell)
+        left = self._rows.open_ones(line.vehicle)
+        follower = self._followers[line.vehicle] = FileFollower(self._rows, self._folder, name, self._tell, left)
         line.followers.append(follower)
 
     def listing(self, vehicle: int, folder: str) -> Sequence[Entry]:
@@ -156,7 +157,10 @@ class Files:
             if content is not None:
                 follower.keep_content(row.id, content)
             ask(line, lambda end, _t: follower.begin(end, row, content))
+        except LateError:  # it may have begun
+            raise
         except (OSError, StommelError) as error:
+            follower.drop_content(row.id)
             self._rows.change(row._replace(state=FAILED, reason=str(error)))
             raise TransferError(f"{row.path}: {error}") from None
         self._tell(row)

@@ -217,11 +217,11 @@ class VehicleLine:
                 future.set_exception(error)
 
     def _keep(self, real: float) -> bool:
-        """Store what came; whether everything that came is on the disk."""
+        """Store what came; whether everything that came is on the disk. An archive that has failed is tried again."""
         ingest = self.ingest
         is_due = ingest.has_news or (ingest.frames and real - self._store_at >= OWN_EVERY)
-        if not is_due:
-            return not self.archive_reason
+        if not is_due and not self.archive_reason:
+            return True
         if self.archive_reason and real - self._store_at < AGAIN:
             return False
         self._store_at = real
@@ -244,6 +244,8 @@ class VehicleLine:
         for follower in list(followers):
             try:
                 follower.look(self, t)
+            except ArchiveRequestError as error:  # no later try would help
+                self._failed(type(follower).__name__, error)
             except ArchiveError as error:
                 self.archive_reason = str(error)
             except Exception as error:  # noqa: BLE001 - one of them shall not silence the others, nor the line

@@ -3,7 +3,7 @@
 import hashlib
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,7 +19,6 @@ from stommel.station.vehicles.mission_rows import (
     ABOARD,
     FAILED,
     INTERRUPTED,
-    OPEN,
     REFUSED,
     REPLACED,
     SENDING,
@@ -78,9 +77,13 @@ class MissionFollower:
         Of the vehicle, for orders that are fetched from it.
     tell
         Is called when a mission has changed.
+    left
+        Missions that were on their way when the station stopped; they are told as interrupted.
     """
 
-    def __init__(self, rows: MissionRows, folder: Path, tell: Callable[[int, int | None], None]) -> None:
+    def __init__(
+        self, rows: MissionRows, folder: Path, tell: Callable[[int, int | None], None], left: Sequence[MissionRow]
+    ) -> None:
         self._rows, self._folder, self._tell = rows, folder, tell
         self._due = 0.0
         self._queue: deque[Task] = deque()
@@ -91,7 +94,7 @@ class MissionFollower:
         """When that was, by the vehicle's clock [s since 1970]."""
         self.words = "the vehicle has not been asked yet"
         """Why it is not known which orders it holds, or what the last request came to."""
-        self._is_new = True
+        self._left = list(left)
         self._again_at = float("-inf")
         """When what was refused under water is tried again [s]."""
         self._asked_for: object = ()
@@ -119,17 +122,16 @@ class MissionFollower:
         if real < self._due:
             return
         self._due = real + EVERY
-        if self._is_new:
-            for row in self._rows.in_states(line.vehicle, *OPEN):
-                self._rows.change(row.id, INTERRUPTED, STOPPED, line.clock.now())
-            self._is_new = False
+        while self._left:
+            self._rows.change(self._left[-1].id, INTERRUPTED, STOPPED, line.clock.now())
+            self._left.pop()
         if self.current is not None and (outcome := line.end.orders.outcome) is not None:
-            task, self.current = self.current, None
-            self._finish(line, task, outcome, t)
+            self._finish(line, self.current, outcome, t)
+            self.current = None  # not before the archive has it
         if self.current is None and not self._queue and line.end.is_heard(t):
             self._ask_if_new(line)
         if self.current is None and self._queue and not self._waits(line, self._queue[0], t):
-            self._begin(line, self._queue.popleft(), t)
+            self._begin(line, self._queue[0], t)
         self._look_at_fetch(line)
 
     def _ask_if_new(self, line: VehicleLine) -> None:
@@ -151,21 +153,24 @@ class MissionFollower:
         orders = line.end.orders
         within = task.within if task.until is None else max(task.until - t, 1.0)
         if task.kind == "roll-back" and (self.held is None or not self.held.previous):
+            self._queue.popleft()
             self.words = "the vehicle holds no orders before the present ones"
             self._tell(line.vehicle, None)
             return
         if task.row is not None:
             self._rows.change(task.row.id, SENDING, "on its way", line.clock.now())
             orders.send(task.row.orders.encode(), t, within)
-            self._tell(line.vehicle, task.row.id)
         elif task.kind == "roll-back":
             assert self.held is not None
             orders.roll_back(self.held.previous, t, within)
         else:
             orders.ask(t, within)
-        self.current = task
+        self.current = self._queue.popleft()
+        if task.row is not None:
+            self._tell(line.vehicle, task.row.id)
 
     def _finish(self, line: VehicleLine, task: Task, outcome: OrdersOutcome, t: float) -> None:
+        """Write what a request came to; done again as a whole if the archive fails in its middle."""
         now, words = line.clock.now(), "; ".join(outcome.words)
         if task.kind == "ask":
             if outcome.held is not None:
@@ -174,11 +179,11 @@ class MissionFollower:
                 self.words, self._asked_for = words, ()
             return
         if outcome.ending is Ending.REFUSED and words.endswith(UNDER_WATER) and t < (task.until or t):
-            self._again_at = t + AGAIN
-            self._queue.appendleft(task)
             if task.row is not None:
                 self._rows.change(task.row.id, WAITING, "the vehicle is under water; sent at the surface", now)
                 self._tell(line.vehicle, task.row.id)
+            self._again_at = t + AGAIN
+            self._queue.appendleft(task)
             return
         if task.row is not None:
             if outcome.ending is Ending.WHOLE:
@@ -218,22 +223,33 @@ class MissionFollower:
         if self._fetch is None or not self._fetch[0].state.is_over:
             return
         download, disk, sha256 = self._fetch
+        content = self._fetched(download)
+        if hashlib.sha256(content).digest() == sha256:
+            self._keep_fetched(line, content, sha256)
+        else:
+            self._vain = sha256
+            self.words = f"its orders could not be fetched: {download.reason or 'they have changed meanwhile'}"
         self._fetch = None
         line.end.drop(download)
-        name = (download.file.kept_as if download.file is not None else None) or LOCAL
-        content = (self._folder / name).read_bytes() if download.state is State.WHOLE else b""
         for left in disk.sizes():
             disk.remove(left)
         disk.close()
-        if hashlib.sha256(content).digest() != sha256:
-            self._vain = sha256
-            self.words = f"its orders could not be fetched: {download.reason or 'they have changed meanwhile'}"
-            return
+
+    def _fetched(self, download: Download) -> bytes:
+        """What was fetched; nothing if it did not come whole."""
+        name = (download.file.kept_as if download.file is not None else None) or LOCAL
+        try:
+            return (self._folder / name).read_bytes() if download.state is State.WHOLE else b""
+        except OSError:
+            return b""
+
+    def _keep_fetched(self, line: VehicleLine, content: bytes, sha256: bytes) -> None:
+        """Write down orders that were found aboard."""
         held = self.held.name if self.held is not None else ""
         row = MissionRow(
             0, line.vehicle, line.clock.now(), None, held, sha256.hex(), content.decode("utf-8", "replace"), None,
             REPLACED,
         )  # fmt: skip
-        added = self._rows.add(row, "found aboard")
+        kept = self._rows.of_hash(line.vehicle, row.sha256) or self._rows.add(row, "found aboard")
         if self.held is not None and self.held.sha256 == sha256:
-            self._be_aboard(line, added, line.clock.now(), "found aboard")
+            self._be_aboard(line, kept, line.clock.now(), "found aboard")

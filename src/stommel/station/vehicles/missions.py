@@ -14,8 +14,8 @@ from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.mission_follower import MOST_WAITING, MissionFollower, Task
-from stommel.station.vehicles.mission_rows import WAITING, MissionRow, MissionRows, MissionState
-from stommel.station.vehicles.opening import MissingError, vehicle_folder
+from stommel.station.vehicles.mission_rows import FAILED, OPEN, WAITING, MissionRow, MissionRows, MissionState
+from stommel.station.vehicles.opening import MissingError, VehicleError, vehicle_folder
 
 
 class MissionError(StommelError):
@@ -40,7 +40,8 @@ class Missions:
     def follow(self, line: VehicleLine) -> None:
         """Take in a vehicle, before its line is started."""
         folder = vehicle_folder(line.folder, line.vehicle) / "orders"
-        follower = self._followers[line.vehicle] = MissionFollower(self._rows, folder, self._tell)
+        left = self._rows.in_states(line.vehicle, *OPEN)
+        follower = self._followers[line.vehicle] = MissionFollower(self._rows, folder, self._tell, left)
         line.followers.append(follower)
 
     def upload(
@@ -61,6 +62,8 @@ class Missions:
             The text is no orders file.
         MissionError
             Too many wait.
+        VehicleError
+            The line is busy; the mission is kept as failed.
         """
         _, header = parse_orders(orders, "orders")
         line, follower = self._lines[vehicle], self._followers[vehicle]
@@ -69,7 +72,11 @@ class Missions:
         sha256 = hashlib.sha256(orders.encode()).hexdigest()
         row = MissionRow(0, vehicle, line.clock.now(), user, header.mission, sha256, orders, plan, WAITING)
         row = self._rows.add(row, "waits to be sent", preview)
-        ask(line, lambda _end, _t: follower.put(Task("upload", user, row, valid_for_s)))
+        try:
+            ask(line, lambda _end, _t: follower.put(Task("upload", user, row, valid_for_s)))
+        except VehicleError as error:
+            self._rows.change(row.id, FAILED, f"not sent: {error}", line.clock.now())
+            raise
         self._tell(vehicle, row.id)
         return row
 

@@ -26,6 +26,10 @@ class VehicleError(StommelError):
     """A vehicle that cannot be attached; the message says what to do."""
 
 
+class LateError(StommelError):
+    """Something is being done, and takes longer than anybody waits."""
+
+
 class MissingError(StommelError):
     """Something that is asked for is not there."""
 

@@ -24,7 +24,7 @@ from stommel.station.people.errors import (
     UnknownPersonError,
     WrongLoginError,
 )
-from stommel.station.vehicles.opening import MissingError, VehicleError
+from stommel.station.vehicles.opening import LateError, MissingError, VehicleError
 
 MOST_PROBLEMS = 20
 _LONGEST = 600
@@ -43,6 +43,7 @@ STATUS: tuple[tuple[type[StommelError], int], ...] = (
     (PeopleError, 422),
     (MissingError, 404),
     (VehicleError, 409),
+    (LateError, 503),
     (TooManyJobsError, 429),
     (UnknownJobError, 404),
     (SimulatorError, 503),

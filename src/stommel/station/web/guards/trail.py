@@ -13,6 +13,7 @@ from stommel.station.people.roles import User
 from stommel.station.web.guards.origins import HARMLESS
 
 SECRET = frozenset({"password", "token", "secret", "key"})
+"""Words of a key, as of `new_password`, whose value is never written down."""
 _LARGEST = 4096
 """Bytes of a body that the log repeats."""
 
@@ -62,5 +63,5 @@ def _shown(body: bytes) -> Any:
     except (ValueError, RecursionError):
         return f"{len(body)} bytes"
     if isinstance(content, dict):
-        return {key: "***" if key.casefold() in SECRET else value for key, value in content.items()}
+        return {key: "***" if SECRET & set(key.casefold().split("_")) else value for key, value in content.items()}
     return content

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from threading import Thread
 from types import TracebackType
 from typing import Any
 
@@ -94,7 +95,7 @@ class SimulatedGlider:
             with self.words.open("wb") as said:
                 # a session of its own: Ctrl-C is for the station, which ends it
                 self._process = subprocess.Popen(
-                    self._command(), stdin=subprocess.DEVNULL, stdout=said, stderr=said, start_new_session=True
+                    self._command(), stdin=subprocess.PIPE, stdout=said, stderr=said, start_new_session=True
                 )
         except OSError as error:
             raise SimulatedGliderError(f"{error.filename or self._folder}: {error.strerror or error}") from None
@@ -112,6 +113,8 @@ class SimulatedGlider:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
+        if self._process.stdin is not None:
+            self._process.stdin.close()
 
     def _make_key(self) -> None:
         from stommel.link.signing.key_file import KeyFile, new_keys
@@ -121,11 +124,25 @@ class SimulatedGlider:
 
     def _command(self) -> list[str]:
         return [
-            sys.executable, "-c", "from stommel.cli import main; main()",
+            sys.executable, "-c", "from stommel.cli.station.simulated import fly; fly()",
             "sitl", "fly", os.fspath(self._mission.resolve()), "--speed", f"{self.speed:g}", "--no-live",
             "--link", f"tcp-listen:127.0.0.1:{self._port}", "--key", os.fspath(self.key),
             "--log", os.fspath(self._folder / "log"),
         ]  # fmt: skip
+
+
+def fly() -> None:
+    """Run the command line in the glider's process, until the station ends: killed, it could not end its glider."""
+    from stommel.cli import main
+
+    Thread(target=_end_with_station, daemon=True).start()
+    main()
+
+
+def _end_with_station() -> None:
+    """Wait until nobody holds the other end of the standard input; nothing is ever written to it."""
+    os.read(0, 1)
+    os.kill(os.getpid(), signal.SIGINT)
 
 
 def _free_port() -> int:

@@ -32,20 +32,6 @@ def test_one_command_launches_a_glider_and_serves_it(tmp_path: Path) -> None:
     assert not flying(tmp_path)
 
 
-def test_a_killed_station_leaves_no_glider_behind(tmp_path: Path) -> None:
-    """One that flew on would write the log that the next start's glider writes too."""
-    command = [PROGRAM, "station", "--sitl", "east_china_sea", "--folder", tmp_path, "--port", "0"]
-    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stderr is not None
-        told = [process.stderr.readline() for _ in range(3)]
-        process.kill()
-        assert "page:" in told[2], told
-    until = time.monotonic() + 60.0
-    while flying(tmp_path) and time.monotonic() < until:
-        time.sleep(0.1)
-    assert not flying(tmp_path)
-
-
 def heard(client: httpx.Client) -> dict[str, object]:
     """Summary of the only vehicle once it is heard; the first start compiles the simulated glider."""
     for _ in range(1200):

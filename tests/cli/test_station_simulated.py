@@ -15,11 +15,11 @@ from tests.support.command import PROGRAM, run_here
 def test_one_command_launches_a_glider_and_serves_it(tmp_path: Path) -> None:
     """It is heard over its signed link, its archive is there afterwards, and no process of it is left."""
     command = [PROGRAM, "station", "--sitl", "east_china_sea", "--folder", tmp_path, "--port", "0"]
-    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         try:
-            assert process.stderr is not None
-            told = [process.stderr.readline() for _ in range(3)]
-            address = re.search(r"page: (http://127\.0\.0\.1:\d+/)", told[2])
+            assert process.stdout is not None
+            told = process.stdout.readline()
+            address = re.search(r"page: (http://127\.0\.0\.1:\d+/)", told)
             assert address, told
             with httpx.Client(base_url=address[1]) as client:
                 summary = heard(client)

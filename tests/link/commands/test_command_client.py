@@ -263,6 +263,15 @@ def test_a_full_disk_keeps_commands_from_being_given_and_from_being_sent() -> No
     assert quay.state(id) is State.DONE
 
 
+def test_an_abort_goes_out_though_the_disk_is_full() -> None:
+    """Said twice after a restart it does no harm; not said at all it may."""
+    quay = Quay()
+    quay.shore_disk.broken = True
+    id = quay.client.abort(quay.shore_t, valid_for=600.0)
+    quay.run(60.0)
+    assert quay.state(id) is State.DONE
+
+
 def test_a_damaged_queue_is_told_and_not_followed() -> None:
     quay = Quay()
     quay.give("start")

@@ -243,7 +243,7 @@ class CommandClient:
         command = entry.command
         if not entry.sent:
             entry.sent = True
-            if not self._keep(t):
+            if not self._keep(t) and command.number != ABORT:
                 entry.sent, entry.due = False, t + self.timer.time_out
                 return
         entry.asking = entry.asking % 255 + 1

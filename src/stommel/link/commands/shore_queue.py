@@ -6,7 +6,7 @@ from typing import Any
 
 from stommel.files.storage import Storage
 from stommel.link.commands.states import MOST_WORDS, Command, Progress, State, When
-from stommel.link.commands.table import CommandError
+from stommel.link.commands.table import ABORT, CommandError
 from stommel.link.keeping import DamagedError, keep, kept
 from stommel.link.words import fitted
 
@@ -66,7 +66,7 @@ class ShoreQueue:
             self.waiting = {}
 
     def add(self, waiting: Waiting, now: int) -> None:
-        """Take a new command.
+        """Take a new command; an abort is taken also where the disk does not keep it.
 
         Raises
         ------
@@ -79,6 +79,8 @@ class ShoreQueue:
         try:
             self.keep(now)
         except OSError as error:
+            if waiting.command.number == ABORT:
+                return  # twice is better than not at all
             del self.waiting[waiting.command.id]
             raise CommandError(f"queue of commands: cannot be kept: {error.strerror or error}") from error
         over = [id for id, entry in self.waiting.items() if entry.last is not None]

@@ -766,6 +766,13 @@ ELSEWHERE = {
     "sitl campaign": "tests/sitl/test_campaign_command, with sitl replay",
     "sitl replay": "as sitl campaign",
     "sitl stand-in": "below",
+    "station serve": "prints the address of its page",
+    **{f"station {verb}": "tests/archive/test_commands" for verb in ("backup", "check", "export", "migrate")},
+    **{
+        f"station user {verb}": "tests/cli/test_station_people"
+        for verb in ("add", "list", "change", "password", "remove")
+    },
+    **{f"station token {verb}": "tests/cli/test_station_people" for verb in ("add", "list", "remove")},
     "vehicle run": "below",
     "vehicle show": "below",
     "vehicle new": "prints a path",

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from stommel.archive import Archive
 
 
-class UnknownVehicleError(StommelError):
+class NotInArchiveError(StommelError):
     """The archive holds nothing of this vehicle."""
 
 
@@ -93,7 +93,7 @@ def _require_known(archive: "Archive", vehicle: int) -> None:
     known = archive.vehicles()
     if vehicle not in known:
         among = ", ".join(f"{number} ({name})" for number, name in known.items()) or "none"
-        raise UnknownVehicleError(f"{archive.name}: nothing of vehicle {vehicle} is there; there are: {among}")
+        raise NotInArchiveError(f"{archive.name}: nothing of vehicle {vehicle} is there; there are: {among}")
 
 
 def _write_telemetry(archive: "Archive", vehicle: int, begin: float, end: float, output: Path) -> int:

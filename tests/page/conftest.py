@@ -2,7 +2,6 @@
 
 import json
 import os
-import socket
 import subprocess
 import sys
 import time
@@ -14,6 +13,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 import stommel
+from tests.support.ports import free_port
 
 if TYPE_CHECKING:
     from tests.page.past import Past
@@ -44,13 +44,6 @@ def answers(address: str, process: "subprocess.Popen[bytes]", seconds: float = 6
         else:
             return
     pytest.fail(f"no answer from {address} within {seconds} s")
-
-
-def free_port() -> int:
-    """A port of this machine that nothing listens on."""
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return int(one.getsockname()[1])
 
 
 def serve(command: list[str], address: str) -> "Iterator[subprocess.Popen[bytes]]":

@@ -10,7 +10,8 @@ from typing import Any
 
 import pytest
 
-from tests.page.conftest import free_port, serve, station_command
+from tests.page.conftest import serve, station_command
+from tests.support.ports import free_port
 
 PASSWORD = "a long way to the sea"
 PEOPLE = {"ada": "admin", "ling": "pilot", "max": "pilot", "vera": "viewer"}

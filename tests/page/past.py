@@ -12,8 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from stommel.archive import Archive, Batch, CtdRow, DiveRow
-from tests.page.conftest import free_port, serve
+from tests.page.conftest import serve
 from tests.station.speaker import Speaker, speaker
+from tests.support.ports import free_port
 
 HOURS = 6
 STEP = 2.0

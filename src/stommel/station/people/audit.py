@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from sqlalchemy import select
 
 from stommel.archive.schema import audit
-from stommel.station.people.times import microseconds, seconds
+from stommel.archive.times import microseconds, seconds
 from stommel.station.people.users import Database
 
 

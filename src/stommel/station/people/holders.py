@@ -8,9 +8,9 @@ from threading import Lock
 from sqlalchemy import Connection, select
 
 from stommel.archive.schema import holders
+from stommel.archive.times import microseconds, seconds
 from stommel.station.people.errors import HeldError, PeopleError
 from stommel.station.people.roles import Role, User
-from stommel.station.people.times import microseconds, seconds
 from stommel.station.people.users import Database
 
 LONGEST_REASON = 500

@@ -7,9 +7,9 @@ from sqlalchemy import select
 
 from stommel.archive.errors import ArchiveError
 from stommel.archive.schema import sessions, users
+from stommel.archive.times import microseconds, seconds
 from stommel.station.people.roles import Role, User
 from stommel.station.people.secrets_kept import fingerprint, new_secret
-from stommel.station.people.times import microseconds, seconds
 from stommel.station.people.users import Database
 
 IDLE_S = 12 * 3600.0

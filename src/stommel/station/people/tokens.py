@@ -8,11 +8,11 @@ from sqlalchemy import Row, func, select
 
 from stommel.archive.errors import ArchiveError
 from stommel.archive.schema import tokens, users
+from stommel.archive.times import microseconds, seconds
 from stommel.station.people.errors import PeopleError, UnknownPersonError
 from stommel.station.people.names import spelled
 from stommel.station.people.roles import Role, User
 from stommel.station.people.secrets_kept import fingerprint, new_secret
-from stommel.station.people.times import microseconds, seconds
 from stommel.station.people.users import Database
 
 PREFIX = "stommel_"

@@ -8,11 +8,11 @@ from typing import Protocol
 from sqlalchemy import Connection, func, select
 
 from stommel.archive.schema import sessions, tokens, users
+from stommel.archive.times import microseconds, seconds
 from stommel.station.people.errors import PeopleError, UnknownPersonError
 from stommel.station.people.names import checked_name, spelled
 from stommel.station.people.passwords import checked_password, hashed
 from stommel.station.people.roles import Role
-from stommel.station.people.times import microseconds, seconds
 
 
 class Database(Protocol):

@@ -9,7 +9,8 @@ from sqlalchemy import func, select
 
 from stommel.archive import schema
 from stommel.archive.archive import Archive
-from stommel.station.products.samples import LATEST, sampled
+from stommel.archive.times import GREATEST_TIME
+from stommel.station.products.samples import sampled
 
 
 class _Kept(NamedTuple):
@@ -31,7 +32,7 @@ class SampleRecords:
             stand = self._stand(vehicle)
             kept = self._kept.get(vehicle)
             if kept is None or kept.stand != stand:
-                kept = self._kept[vehicle] = _Kept(stand, sampled(self._archive, vehicle, 0.0, LATEST))
+                kept = self._kept[vehicle] = _Kept(stand, sampled(self._archive, vehicle, 0.0, GREATEST_TIME))
             return kept.samples
 
     def between(self, vehicle: int, begin: float, end: float) -> xr.Dataset:

@@ -19,8 +19,6 @@ MOST_SAMPLES = 2_000_000
 """In one data set."""
 FARTHEST = 7200.0
 """Time from a sample to a position, over which none is made up [s]."""
-LATEST = 4_102_444_800.0
-"""The year 2100 [s since 1970]."""
 _US = 1e-6
 Array = NDArray[np.float64]
 

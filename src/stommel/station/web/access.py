@@ -4,7 +4,7 @@ A route names the least role that it needs: `user: Viewer`, `user: Pilot`, `user
 commands the vehicle of its path. A route that names none is refused when the application is made.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Annotated
 
 from fastapi import Depends, Path
@@ -69,15 +69,16 @@ def admin(user: Annotated[User | None, Depends(somebody)]) -> User:
 def holder_of(vehicle: VehicleNumber, connection: HTTPConnection, user: Annotated[User, Depends(pilot)]) -> User:
     """The pilot who holds command of the vehicle; takes it silently where nobody has it."""
     if vehicle not in connection.app.state.station.vehicles:
-        raise no_vehicle(vehicle)
+        raise no_vehicle(vehicle, connection.app.state.station.vehicles)
     people: People = connection.app.state.station.people
     people.holders.need(vehicle, user)
     return user
 
 
-def no_vehicle(vehicle: int) -> Exception:
-    """What is said of a vehicle that is not there."""
-    return refusal(404, f"there is no vehicle {vehicle} at this station", key="vehicle", value=vehicle)
+def no_vehicle(vehicle: int, known: Iterable[int]) -> Exception:
+    """What is said of a vehicle that is not there, beside those that are."""
+    words, allowed = f"there is no vehicle {vehicle} at this station", ", ".join(map(str, known)) or "none"
+    return refusal(404, words, key="vehicle", value=vehicle, allowed=allowed)
 
 
 Somebody = Annotated[User | None, Depends(somebody)]

@@ -6,8 +6,7 @@ from fastapi import Depends, Request
 
 from stommel.station.station import Station
 from stommel.station.vehicles.line import VehicleLine
-from stommel.station.web.access import VehicleNumber
-from stommel.station.web.errors import refusal
+from stommel.station.web.access import VehicleNumber, no_vehicle
 
 
 def the_station(request: Request) -> Station:
@@ -20,15 +19,17 @@ def the_station(request: Request) -> Station:
 TheStation = Annotated[Station, Depends(the_station)]
 
 
-def line_of(vehicle: VehicleNumber, station: TheStation) -> VehicleLine:
-    """The line to the vehicle of the path."""
+def line_to(vehicle: int, station: Station) -> VehicleLine:
+    """The line to a vehicle; the refusal of its number where there is none."""
     line = station.vehicles.get(vehicle)
     if line is None:
-        known = ", ".join(map(str, station.vehicles)) or "none"
-        raise refusal(
-            404, f"there is no vehicle {vehicle} at this station", key="vehicle", value=vehicle, allowed=known
-        )  # fmt: skip
+        raise no_vehicle(vehicle, station.vehicles)
     return line
+
+
+def line_of(vehicle: VehicleNumber, station: TheStation) -> VehicleLine:
+    """The line to the vehicle of the path."""
+    return line_to(vehicle, station)
 
 
 Line = Annotated[VehicleLine, Depends(line_of)]

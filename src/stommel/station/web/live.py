@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
 from starlette.concurrency import run_in_threadpool
 
 from stommel.errors import StommelError
+from stommel.station.live.hub import MOST_CHANNELS
 from stommel.station.web.access import Viewer, somebody
 from stommel.station.web.finite import finite
 
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from stommel.station.live.subscription import Subscription
 
 router = APIRouter(prefix="/api")
-MOST_CHANNELS = 200
 """Of one subscription."""
 PING_EVERY = 15.0
 """Seconds; as often it is looked whether the person may still look."""

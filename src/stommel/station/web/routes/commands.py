@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from fastapi import APIRouter, Path, Query
 from pydantic import BaseModel, ConfigDict, Field
 
+from stommel.archive.times import GREATEST_TIME
 from stommel.link.commands.client import LEAST_VALID, MOST_VALID
 from stommel.link.commands.states import When
 from stommel.link.commands.table import COMMANDS
@@ -16,7 +17,7 @@ router = APIRouter(prefix="/api", tags=["commands"])
 
 Occasion = Literal["at_once", "at_next_surfacing", "until_expiry"]
 CommandId = Annotated[str, Path(pattern="^[0-9a-f]{16}$", description="Id of the command, 16 hexadecimal digits.")]
-FIRST, LAST = 0.0, 4_102_444_800.0
+FIRST, LAST = 0.0, GREATEST_TIME
 LONGEST_TABLE = 500
 
 

@@ -16,13 +16,14 @@ from sqlalchemy import select
 from starlette.background import BackgroundTask
 
 from stommel.archive import schema
+from stommel.archive.times import GREATEST_TIME as LATEST
 from stommel.data.files import csv_lines, write_netcdf
 from stommel.data.gridding import section
 from stommel.data.summaries import profile_summaries
 from stommel.data.variables import BY_NAME
 from stommel.data.water_masses import density_lines
 from stommel.station.products.record import SampleRecords
-from stommel.station.products.samples import LATEST, trajectory
+from stommel.station.products.samples import trajectory
 from stommel.station.web.access import Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation

@@ -5,13 +5,14 @@ from typing import Annotated, Literal
 from fastapi import APIRouter, Query
 from pydantic import BaseModel, ConfigDict, Field
 
+from stommel.archive.times import GREATEST_TIME
 from stommel.files.sentences import PRINTABLE
 from stommel.station.live.events import Happening
 from stommel.station.logbook.feed import CURSOR, SOURCES, page_of
 from stommel.station.logbook.notes import Notes
 from stommel.station.web.access import Pilot, Viewer
 from stommel.station.web.errors import refusal
-from stommel.station.web.found import Line, TheStation
+from stommel.station.web.found import Line, TheStation, line_to
 
 router = APIRouter(prefix="/api", tags=["log book"])
 
@@ -43,7 +44,7 @@ class NewNote(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     vehicle: Annotated[int | None, Field(ge=1, le=250)] = None
-    t: Annotated[float | None, Field(ge=0, le=4_102_444_800, allow_inf_nan=False)] = None
+    t: Annotated[float | None, Field(ge=0, le=GREATEST_TIME, allow_inf_nan=False)] = None
     words: Annotated[str, Field(min_length=1, max_length=10_000, pattern=r"\S")]
 
 
@@ -84,10 +85,8 @@ def read_notes(
 @router.post("/notes", status_code=201)
 def add_note(user: Pilot, body: NewNote, station: TheStation) -> NoteRow:
     """Write a note; it stays as it is, with your name and the time."""
-    if body.vehicle is not None and body.vehicle not in station.vehicles:
-        known = ", ".join(map(str, station.vehicles)) or "none"
-        words = f"there is no vehicle {body.vehicle} at this station"
-        raise refusal(404, words, key="vehicle", value=body.vehicle, allowed=known)
+    if body.vehicle is not None:
+        line_to(body.vehicle, station)
     now = station.now(body.vehicle)
     if body.t is not None and body.t > now + _AHEAD:
         raise refusal(422, "a note is about a time that has passed", key="t", value=body.t, allowed=f"0 to {now:.0f}")

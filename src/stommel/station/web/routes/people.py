@@ -262,7 +262,7 @@ def give_up_command(vehicle: VehicleNumber, request: Request, user: Pilot) -> No
 
 def _there(request: Request, vehicle: int) -> None:
     if vehicle not in request.app.state.station.vehicles:
-        raise no_vehicle(vehicle)
+        raise no_vehicle(vehicle, request.app.state.station.vehicles)
 
 
 def _in_person(user: User) -> None:

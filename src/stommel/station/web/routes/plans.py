@@ -20,7 +20,7 @@ from stommel.plans.templates import DEFAULT_START, place_row, templates
 from stommel.station.station import Station
 from stommel.station.web.access import Pilot, Viewer
 from stommel.station.web.errors import refusal
-from stommel.station.web.found import Line, TheStation
+from stommel.station.web.found import Line, TheStation, line_to
 from stommel.station.web.routes.plan_shapes import (
     Checked,
     Compared,
@@ -53,7 +53,7 @@ def list_plan_templates(
     """Return plans to begin with, at the place of a vehicle if one is named."""
     model, start, density = DEFAULT_VEHICLE, None, None
     if vehicle is not None:
-        _require(station, vehicle)
+        line_to(vehicle, station)
         model, start = _model(station, vehicle), _place(station, vehicle)
         density = neutral_density(station.archive, vehicle)
     limits = vehicle_limits(load_vehicle(model))
@@ -89,7 +89,7 @@ def open_orders(
     _user: Pilot, body: OrdersBody, station: TheStation, vehicle: Annotated[int, Query(ge=1, le=250)]
 ) -> OpenedPlan:
     """Return the plan of an orders file for a vehicle."""
-    _require(station, vehicle)
+    line_to(vehicle, station)
     return OpenedPlan(**station.previews.opened(body.orders, _around(station, vehicle)))
 
 
@@ -162,7 +162,7 @@ def _plan(station: Station, body: PlanBody) -> StationPlan:
     """The plan of a request, with what the station knows filled in."""
     number = body.vehicle
     if number is not None:
-        _require(station, number)
+        line_to(number, station)
     return resolved(
         plan_from(body.plan),
         now=station.now(number),
@@ -179,11 +179,6 @@ def _model(station: Station, vehicle: int) -> str:
 def _vehicles(station: Station) -> list[str]:
     own = (line.settings.model for line in station.vehicles.values())
     return sorted({*builtin_names(), *own})
-
-
-def _require(station: Station, vehicle: int) -> None:
-    if vehicle not in station.vehicles:
-        raise refusal(404, f"there is no vehicle {vehicle} at this station", key="vehicle", value=vehicle)
 
 
 def _place(station: Station, vehicle: int) -> Place | None:

@@ -12,7 +12,7 @@ from stommel.station.replay.replay import Replay
 from stommel.station.replay.replays import ReplayError
 from stommel.station.web.access import Viewer
 from stommel.station.web.errors import refusal
-from stommel.station.web.found import TheStation
+from stommel.station.web.found import TheStation, line_to
 
 router = APIRouter(prefix="/api", tags=["replays"])
 
@@ -86,10 +86,7 @@ def read_replays(_user: Viewer, station: TheStation) -> list[ReplayState]:
 @router.post("/replays", status_code=201)
 def begin_replay(user: Viewer, body: NewReplay, station: TheStation) -> ReplayState:
     """Begin a replay; it ends by itself when nobody has listened to it for a minute."""
-    if body.vehicle not in station.vehicles:
-        known = ", ".join(map(str, station.vehicles)) or "none"
-        words = f"there is no vehicle {body.vehicle} at this station"
-        raise refusal(404, words, key="vehicle", value=body.vehicle, allowed=known)
+    line_to(body.vehicle, station)
     if body.end - body.begin < SHORTEST:
         raise refusal(422, "a replay ends after it begins", key="end", value=body.end, allowed="a second after begin")
     try:

@@ -7,6 +7,7 @@ from fastapi import APIRouter, Query
 from pydantic import BaseModel
 
 from stommel.archive.series import FEWEST_POINTS, MOST_POINTS
+from stommel.archive.times import GREATEST_TIME
 from stommel.station.channels import CHANNELS, channel_named
 from stommel.station.track import Track, read_track
 from stommel.station.web.access import Viewer
@@ -16,7 +17,7 @@ from stommel.station.web.found import Line, TheStation
 router = APIRouter(prefix="/api", tags=["series"])
 
 HOUR = 3600.0
-FIRST, LAST = 0.0, 4_102_444_800.0
+FIRST, LAST = 0.0, GREATEST_TIME
 MOST_CHANNELS = 40
 Time = Annotated[float | None, Query(ge=FIRST, le=LAST, allow_inf_nan=False, description="Seconds since 1970.")]
 Points = Annotated[int, Query(ge=FEWEST_POINTS, le=MOST_POINTS, description="To be shown, at most.")]

@@ -6,6 +6,7 @@ import socket
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from threading import Thread
 from types import TracebackType
@@ -124,17 +125,15 @@ class SimulatedGlider:
 
     def _command(self) -> list[str]:
         return [
-            sys.executable, "-c", "from stommel.cli.station.simulated import fly; fly()",
+            sys.executable, "-c", "from stommel.cli import main; from stommel.cli.station.simulated import fly; fly(main)",
             "sitl", "fly", os.fspath(self._mission.resolve()), "--speed", f"{self.speed:g}", "--no-live",
             "--link", f"tcp-listen:127.0.0.1:{self._port}", "--key", os.fspath(self.key),
             "--log", os.fspath(self._folder / "log"),
         ]  # fmt: skip
 
 
-def fly() -> None:
+def fly(main: Callable[[], None]) -> None:
     """Run the command line in the glider's process, until the station ends: killed, it could not end its glider."""
-    from stommel.cli import main
-
     Thread(target=_end_with_station, daemon=True).start()
     main()
 

@@ -124,8 +124,9 @@ class SimulatedGlider:
             KeyFile(self.key).write(new_keys(self.vehicle, time.time()))
 
     def _command(self) -> list[str]:
+        program = "from stommel.cli import main; from stommel.cli.station.simulated import fly; fly(main)"
         return [
-            sys.executable, "-c", "from stommel.cli import main; from stommel.cli.station.simulated import fly; fly(main)",
+            sys.executable, "-c", program,
             "sitl", "fly", os.fspath(self._mission.resolve()), "--speed", f"{self.speed:g}", "--no-live",
             "--link", f"tcp-listen:127.0.0.1:{self._port}", "--key", os.fspath(self.key),
             "--log", os.fspath(self._folder / "log"),

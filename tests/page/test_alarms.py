@@ -46,7 +46,7 @@ def test_an_alarm_comes_by_itself_sounds_and_is_acknowledged(page: Any, past: Pa
     page.get_by_role("dialog").get_by_role("button", name="Acknowledge").click()
     page.get_by_role("region", name=NEEDS).get_by_text("Sensor drifts.").wait_for()
     told = next(
-        one for one in httpx.get(f"{past.address}/api/alarms?vehicle=1").json() if "Depth above" in one["words"]
+        one for one in httpx.get(f"{past.address}/api/alarms?vehicle=1").json() if "Depth greater than" in one["words"]
     )
     assert (told["acknowledged_by"], told["note"], told["cleared"]) == ("local", "Sensor drifts.\nWatching it.", None)
 

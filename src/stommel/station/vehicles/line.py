@@ -252,13 +252,17 @@ class VehicleLine:
                 self._failed(type(follower).__name__, error)
 
     def _speak(self, transport: Transport, real: float, t: float, *, kept: bool) -> None:
-        """Say what is due; while the archive takes nothing, aborts alone."""
+        """Say what is due; while the archive takes nothing, aborts alone, and what makes both ends believe each other.
+
+        A question or an answer of that kind acknowledges nothing. Without it an abort might not be believed, nor the
+        vehicle, whose clock is waited for in silence else.
+        """
         room = min(transport.room(real), AHEAD - transport.waiting(real))
         session = self.end.session
         if kept:
             out = self.end.poll(t, room)
         else:
-            services, session.services = session.services, [AbortOnly(self.end.commands)]
+            services, session.services = session.services, [AbortOnly(self.end.commands), self.end.challenge]
             try:
                 out = session.poll(t, room)
             finally:

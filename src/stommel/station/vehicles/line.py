@@ -84,6 +84,8 @@ class VehicleLine:
         """Looked at when all that came is kept."""
         self.tellers: list[Follower] = []
         """Looked at while the archive fails too: people shall know of it then."""
+        self.ended: Callable[[], str] = lambda: ""
+        """Tells why the vehicle will never be heard again, in words; empty while nobody knows of anything."""
         self.archive_reason = ""
         """Why what comes is not kept, in words."""
         self.failures = 0
@@ -142,7 +144,7 @@ class VehicleLine:
         return self._status
 
     def _seen(self, t: float) -> LineStatus:
-        reason = complaint(self.end, self._transport, self._transport_reason, self.ingest.came, t)
+        reason = self.ended() or complaint(self.end, self._transport, self._transport_reason, self.ingest.came, t)
         return status_of(
             self.end, self.clock, self.ingest, self._transport, reason, self.settings.link, self.archive_reason,
             self.failure, t,

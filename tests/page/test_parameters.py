@@ -6,6 +6,8 @@ import pytest
 
 from tests.page.manned import told
 
+expect = pytest.importorskip("playwright.sync_api").expect
+
 
 @pytest.fixture
 def view(page: Any, station: str) -> Any:
@@ -30,13 +32,29 @@ def test_every_parameter_of_the_vehicle_is_listed_by_component(view: Any, statio
     assert set(shown) == names
     for component in answer["components"]:
         view.get_by_role("button", name=component["name"]).click()
-        assert view.locator("[data-parameter]").count() == len(component["parameters"])
+        expect(view.locator("[data-parameter]")).to_have_count(len(component["parameters"]))
+        assert all(each["words"] for each in component["parameters"]), "the vehicle tells what each means"
+
+
+def test_values_are_shown_and_written_in_the_units_that_people_speak(view: Any, station: str) -> None:
+    """Oracle: cubic metres as the vehicle has them, by hand a millionth of the millilitres typed."""
+    row = parameter(station, "PUMP_FLOW")
+    assert row["unit"] == "m3/s"
+    view.locator("[data-parameter='PUMP_FLOW']").click()
+    field = view.get_by_label("New value, ml/s")
+    assert float(field.input_value()) == pytest.approx(1e6 * row["value"], rel=1e-6)
+    wanted = 9.25 if abs(row["value"] - 9.25e-6) > 1e-9 else 9.5
+    field.fill(str(wanted))
+    view.get_by_role("button", name="Write").click()
+    view.locator("[data-outcome='done']").wait_for(timeout=60_000)
+    assert parameter(station, "PUMP_FLOW")["value"] == pytest.approx(1e-6 * wanted, rel=1e-6)
+    expect(view.locator("[data-parameter='PUMP_FLOW']")).to_contain_text(f"{wanted} ml/s")
 
 
 def test_a_search_finds_by_name_words_and_unit(view: Any, screenshot: Any) -> None:
     view.keyboard.press("/")
     view.keyboard.type("surface dive")
-    assert view.locator("[data-parameter]").count() == 1
+    expect(view.locator("[data-parameter]")).to_have_count(1)
     view.locator("[data-parameter='SURFACE_TIME']").click()
     screenshot("parameters")
     view.get_by_label("Search parameters by name, words or unit").fill("no such thing")

@@ -150,7 +150,7 @@ def _take_header(contents: LogContents, frame: _Frame) -> bool:
     try:
         told = json.loads(frame.payload)
         kinds = {int(kind["number"]): _kind(kind) for kind in told["kinds"]}
-        int(told["first_sequence"])
+        int(told["first_sequence"]), str(told["series"]), str(told["software"])
     except (ValueError, TypeError, KeyError, struct.error, RecursionError):
         return False
     contents.header, contents.kinds = {key: value for key, value in told.items() if key != "kinds"}, kinds

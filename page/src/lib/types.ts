@@ -147,6 +147,7 @@ export type EventKind =
   | 'mission'
   | 'parameter'
   | 'transfer'
+  | 'log'
   | 'note'
   | 'holder'
   | 'presence'

@@ -30,6 +30,31 @@ export interface StoredFile {
   sha256: string | null;
   t: number;
   state: string;
+  /** Of a file of the vehicle's log: how far it is in the archive. */
+  log?: StoredLog | null;
+}
+
+export interface StoredLog {
+  state: 'waiting' | 'going' | 'taken' | 'refused';
+  words: string;
+  share: number;
+  samples: number;
+  dives: number;
+}
+
+/** How far a log is in the archive, in words. */
+export function logWords(log: StoredLog): string {
+  if (log.state === 'waiting') return 'waits to go into the archive';
+  if (log.state === 'going') return `goes into the archive: ${Math.floor(100 * log.share)} %`;
+  if (log.state === 'refused') return `not in the archive: ${log.words}`;
+  const told = `in the archive: ${counted(log.samples, 'sample')}, ${counted(log.dives, 'dive')}`;
+  return log.words.startsWith('whole') ? told : `${told}; ${log.words}`;
+}
+
+/** A number of things, its thousands apart. */
+export function counted(count: number, thing: string): string {
+  const digits = String(count).replace(/\B(?=(\d{3})+$)/g, '\u202f');
+  return `${digits} ${thing}${count === 1 ? '' : 's'}`;
 }
 
 /** How much of a file is there, 0 to 1; null before its size is known. */

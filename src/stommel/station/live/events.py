@@ -29,7 +29,7 @@ class Happening(NamedTuple):
     """Something that people should know at once."""
 
     kind: str
-    """alarm, command, mission, parameter, transfer, note, holder, presence, text, dive or replay."""
+    """alarm, command, mission, parameter, transfer, note, holder, presence, text, dive, log or replay."""
     vehicle: Vehicle | None
     data: Mapping[str, Any]
     """The row as in the list of the API."""

@@ -1,7 +1,6 @@
 """The profiles of a vehicle by their times, kept up: only those samples are read that may change a profile."""
 
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
 
 import gsw
 import numpy as np
@@ -12,6 +11,7 @@ from stommel.archive.ctd_reading import CtdPiece, changes_since, ctd_pieces
 from stommel.archive.times import GREATEST_TIME
 from stommel.data.profiles import ways_of
 from stommel.data.summaries import ProfileSummary
+from stommel.station.products.kept_profiles import Found, keep, kept
 from stommel.station.products.positions import positions
 
 LONGEST_WAY = 500_000
@@ -20,24 +20,16 @@ _END = round(GREATEST_TIME * 1e6)
 Array = NDArray[np.float64]
 
 
-class Found(NamedTuple):
-    """A profile: times [us] of its first and its last sample, and of the turning point before; how it is shown."""
-
-    first_us: int
-    last_us: int
-    turned_us: int
-    is_settled: bool
-    line: ProfileSummary
-    """Its number is that of its place."""
-
-
 class ProfileIndex:
     """Profiles of one vehicle; not for two threads at once."""
 
     def __init__(self, archive: Archive, vehicle: int) -> None:
         self._archive, self._vehicle = archive, vehicle
-        self._change = 0
-        self._found: list[Found] = []
+        self._found, self._change = kept(archive, vehicle)
+        self._kept_change = self._change
+        """Up to which change the archive keeps what is known here."""
+        self._new_us = _END
+        """From when on it does not."""
         self.read = 0
         """Samples that were read so far."""
 
@@ -52,18 +44,26 @@ class ProfileIndex:
         with self._archive.reading() as connection:
             changes = changes_since(connection, self._vehicle, self._change)
         if changes is not None:
-            kept, begin = self._before(changes.first_us)
-            later = [found for found in self._found[len(kept) :] if found.turned_us >= changes.end_us]
-            self._found = [*kept, *_counted(self._found_from(begin, later), len(kept) + 1)]
+            same, begin = self._before(changes.first_us)
+            later = [found for found in self._found[len(same) :] if found.turned_us >= changes.end_us]
+            self._found = [*same, *_counted(self._found_from(begin, later), len(same) + 1)]
             self._change = changes.change
+            self._keep(same[-1].first_us + 1 if same else 0)
         return self._found
+
+    def _keep(self, since_us: int) -> None:
+        """Let the archive keep what is new; if it does not now, it will with the next change."""
+        since_us = self._new_us = min(since_us, self._new_us)
+        new = [found for found in self._found if found.first_us >= since_us]
+        if keep(self._archive, self._vehicle, new, since_us, self._kept_change, self._change):
+            self._kept_change, self._new_us = self._change, _END
 
     def _before(self, changed_us: int) -> tuple[list[Found], int]:
         """Profiles that stay as they are when nothing before a time has changed, and from when on to read."""
-        kept = [found for found in self._found if found.is_settled and found.last_us < changed_us]
-        while kept and not self._is_turned_after(len(kept) - 1, changed_us):
-            kept.pop()
-        return kept, self._found[len(kept)].turned_us if kept else 0
+        same = [found for found in self._found if found.is_settled and found.last_us < changed_us]
+        while same and not self._is_turned_after(len(same) - 1, changed_us):
+            same.pop()
+        return same, self._found[len(same)].turned_us if same else 0
 
     def _is_turned_after(self, place: int, changed_us: int) -> bool:
         """Whether the way of a profile, with what confirmed its end, lies before a time."""

@@ -40,10 +40,6 @@ export function address(path: string, query: Query = {}): string {
 function refusal(status: number, body: unknown): Refusal {
   const detail = (body as { detail?: unknown } | null)?.detail;
   if (typeof detail === 'string') return { reason: detail };
-  if (Array.isArray(detail)) {
-    const first = detail[0] as { loc?: unknown[]; msg?: string; input?: unknown } | undefined;
-    return { reason: `${(first?.loc ?? []).slice(1).join('.')}: ${first?.msg ?? 'not allowed'}`, value: first?.input };
-  }
   if (detail && typeof detail === 'object' && 'reason' in detail) return detail as Refusal;
   return { reason: `The station answered ${status}, without a reason.` };
 }

@@ -1,36 +1,9 @@
 /** Files of a vehicle and their transfers, as the page shows them. */
 
+import type { Transfer } from '../../lib/types';
 import { plainState, type Tone } from '../commands/model';
 
-export interface Entry {
-  name: string;
-  size: number;
-  is_folder: boolean;
-}
-
-export interface Transfer {
-  id: number;
-  path: string;
-  direction: 'download' | 'upload';
-  state: string;
-  is_paused: boolean;
-  is_over: boolean;
-  reason: string;
-  done: number;
-  size: number | null;
-  rate: number | null;
-  seconds_left: number | null;
-  user: string | null;
-}
-
-export interface StoredFile {
-  id: number;
-  path: string;
-  size: number | null;
-  sha256: string | null;
-  t: number;
-  state: string;
-}
+export type { FolderEntry as Entry, StoredFile, Transfer } from '../../lib/types';
 
 /** How much of a file is there, 0 to 1; null before its size is known. */
 export function shareOf(transfer: Transfer): number | null {

@@ -5,7 +5,8 @@ from typing import Any
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from stommel.station.alarms.limits import LimitValues
+from stommel.station.alarms.limits import Limit
+from stommel.station.alarms.severity import Severity
 from stommel.station.channels import CHANNELS, channel_named, is_stale
 from stommel.station.shape import shape_of
 from stommel.station.states import state_machine
@@ -22,10 +23,10 @@ class VehicleAlarm(BaseModel):
 
     key: str
     words: str
-    severity: str
+    severity: Severity
 
 
-class Position(BaseModel):
+class VehiclePosition(BaseModel):
     """Where a vehicle is."""
 
     latitude: float
@@ -98,7 +99,7 @@ class VehicleSummary(BaseModel):
     waypoint: int | None
     mission: int | None
     alarms: list[VehicleAlarm]
-    position: Position | None
+    position: VehiclePosition | None
     battery: Battery | None
     next_surfacing: Expected | None
     speed_made_good: SpeedMadeGood | None
@@ -120,7 +121,8 @@ class ChannelInfo(BaseModel):
     period_s: float
     low: float
     high: float
-    values: dict[int, str] | None = None
+    values: dict[int, str] | None
+    """What the numbers mean, where they stand for words."""
 
 
 class StateMachine(BaseModel):
@@ -164,25 +166,19 @@ class Shape(BaseModel):
     wings: WingShape | None
     rudder: RudderShape | None
     antenna_m: list[float] | None
-    moving_mass_range_m: list[float] | None
+    moving_mass_range_m: tuple[float, float] | None
     moving_mass_neutral_m: float
-    bladder_range_ml: list[float] | None
+    bladder_range_ml: tuple[float, float] | None
     bladder_m: list[float] | None
     assumed: list[str]
     """What the vehicle file does not have."""
-
-
-class LimitInfo(LimitValues):
-    """What a channel may be, and when somebody is told that it is not."""
-
-    channel: str
 
 
 class VehicleDetail(VehicleSummary):
     """How a vehicle is, and what it has."""
 
     channels: list[ChannelInfo]
-    limits: list[LimitInfo]
+    limits: list[Limit]
     shape: Shape | None
 
 

@@ -83,6 +83,7 @@ export interface components {
             period_s: number;
             low: number;
             high: number;
+            turn: number | null;
             values: {
                 [key: string]: string;
             } | null;
@@ -1335,8 +1336,26 @@ export interface components {
             kind: "holder";
             data: components["schemas"]["Hold"] | components["schemas"]["NoHolder"];
         };
+        /** @description The limit of a channel from now on, and who set it. */
+        LimitChange: {
+            channel: string;
+            user: string;
+            limit: components["schemas"]["Limit"] | null;
+        };
+        /** @description Somebody set the limit of a channel, or removed it. */
+        LimitEvent: {
+            /** @constant */
+            type: "event";
+            vehicle: number | string | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "limit";
+            data: components["schemas"]["LimitChange"];
+        };
         /** @description What the station says. */
-        LiveMessage: components["schemas"]["HelloMessage"] | components["schemas"]["PingMessage"] | components["schemas"]["SummaryMessage"] | components["schemas"]["ValuesMessage"] | components["schemas"]["SamplesMessage"] | components["schemas"]["SamplesGapMessage"] | components["schemas"]["NewsGapMessage"] | components["schemas"]["ErrorMessage"] | (components["schemas"]["AlarmEvent"] | components["schemas"]["CommandEvent"] | components["schemas"]["MissionEvent"] | components["schemas"]["ParameterEvent"] | components["schemas"]["TransferEvent"] | components["schemas"]["NoteEvent"] | components["schemas"]["HolderEvent"] | components["schemas"]["TextEvent"] | components["schemas"]["DiveEvent"] | components["schemas"]["ReplayEvent"]);
+        LiveMessage: components["schemas"]["HelloMessage"] | components["schemas"]["PingMessage"] | components["schemas"]["SummaryMessage"] | components["schemas"]["ValuesMessage"] | components["schemas"]["SamplesMessage"] | components["schemas"]["SamplesGapMessage"] | components["schemas"]["NewsGapMessage"] | components["schemas"]["ErrorMessage"] | (components["schemas"]["AlarmEvent"] | components["schemas"]["CommandEvent"] | components["schemas"]["LimitEvent"] | components["schemas"]["MissionEvent"] | components["schemas"]["ParameterEvent"] | components["schemas"]["TransferEvent"] | components["schemas"]["NoteEvent"] | components["schemas"]["HolderEvent"] | components["schemas"]["TextEvent"] | components["schemas"]["DiveEvent"] | components["schemas"]["ReplayEvent"]);
         /** @description What a browser may say. */
         LiveRequest: components["schemas"]["Subscribe"] | components["schemas"]["Unsubscribe"];
         /** @description The vehicle told of the mission that it holds; the API has it. */
@@ -1658,6 +1677,8 @@ export type DiveEvent = components['schemas']['DiveEvent'];
 export type ErrorMessage = components['schemas']['ErrorMessage'];
 export type HelloMessage = components['schemas']['HelloMessage'];
 export type HolderEvent = components['schemas']['HolderEvent'];
+export type LimitChange = components['schemas']['LimitChange'];
+export type LimitEvent = components['schemas']['LimitEvent'];
 export type LiveMessage = components['schemas']['LiveMessage'];
 export type LiveRequest = components['schemas']['LiveRequest'];
 export type MissionAboardChanged = components['schemas']['MissionAboardChanged'];

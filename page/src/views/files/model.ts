@@ -1,6 +1,7 @@
 /** Files of a vehicle and their transfers, as the page shows them. */
 
 import type { Transfer } from '../../lib/types';
+import { bytes } from '../../lib/units';
 import { plainState, type Tone } from '../commands/model';
 
 export type { FolderEntry as Entry, StoredFile, Transfer } from '../../lib/types';
@@ -40,6 +41,15 @@ export function inside(folder: string, name: string): string {
 export function crumbs(path: string): { name: string; path: string }[] {
   const parts = path.split('/').filter(Boolean);
   return parts.map((name, index) => ({ name, path: parts.slice(0, index + 1).join('/') }));
+}
+
+/** Of a file that is sent to a vehicle; the station has the last word. */
+const MOST_BYTES = 8 << 20;
+
+/** What is wrong with a file that shall be sent, in words; empty if nothing is. */
+export function fileProblem(file: File): string {
+  if (file.size === 0) return 'this file is empty';
+  return file.size > MOST_BYTES ? `this file has ${bytes(file.size)}; at most ${bytes(MOST_BYTES)} go over the radio` : '';
 }
 
 /** What is wrong with a path that a file shall get, in words; empty if nothing is. */

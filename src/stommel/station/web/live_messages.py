@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, RootModel
 
+from stommel.station.alarms.limits import Limit
 from stommel.station.live.hub import MOST_CHANNELS
 from stommel.station.people.holders import Hold
 from stommel.station.web.routes.alarms import AlarmRow
@@ -145,6 +146,22 @@ class CommandEvent(_Event):
     data: Command
 
 
+class LimitChange(BaseModel):
+    """The limit of a channel from now on, and who set it."""
+
+    channel: str
+    user: str
+    limit: Limit | None
+    """Null: it has none any more."""
+
+
+class LimitEvent(_Event):
+    """Somebody set the limit of a channel, or removed it."""
+
+    kind: Literal["limit"]
+    data: LimitChange
+
+
 class MissionAboardChanged(BaseModel):
     """The vehicle told of the mission that it holds; the API has it."""
 
@@ -221,7 +238,7 @@ class ReplayEvent(_Event):
 
 
 LiveEvent = Annotated[
-    AlarmEvent | CommandEvent | MissionEvent | ParameterEvent | TransferEvent | NoteEvent | HolderEvent | TextEvent
+    AlarmEvent | CommandEvent | LimitEvent | MissionEvent | ParameterEvent | TransferEvent | NoteEvent | HolderEvent | TextEvent
     | DiveEvent | ReplayEvent,
     Field(discriminator="kind"),
 ]  # fmt: skip

@@ -121,6 +121,8 @@ class ChannelInfo(BaseModel):
     period_s: float
     low: float
     high: float
+    turn: float | None
+    """After which values begin anew, as of a heading."""
     values: dict[int, str] | None
     """What the numbers mean, where they stand for words."""
 
@@ -255,7 +257,7 @@ def _channels() -> list[ChannelInfo]:
     return [
         ChannelInfo(
             key=each.key, words=each.words, unit=each.unit, group=each.group, standard_name=each.standard_name,
-            period_s=each.period_s, low=each.low, high=each.high, values=dict(each.values) or None,
+            period_s=each.period_s, low=each.low, high=each.high, turn=each.turn, values=dict(each.values) or None,
         )
         for each in CHANNELS
     ]  # fmt: skip

@@ -88,7 +88,7 @@ def test_command_is_handed_over_and_taken_over_before_the_eyes_of_both(pilots: P
 
 
 def test_a_command_between_two_pilots_goes_to_who_holds(pilots: Pilots) -> None:
-    """The page of one has not heard yet that the other took command: the station refuses, and the page says who holds."""
+    """Somebody gives a command as another takes the vehicle: the station refuses and says who holds it."""
     ling, other = pilots
     kind(other, "radio-time").click()
     other.get_by_label("time, s").fill("334")

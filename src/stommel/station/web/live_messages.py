@@ -238,8 +238,8 @@ class ReplayEvent(_Event):
 
 
 LiveEvent = Annotated[
-    AlarmEvent | CommandEvent | LimitEvent | MissionEvent | ParameterEvent | TransferEvent | NoteEvent | HolderEvent | TextEvent
-    | DiveEvent | ReplayEvent,
+    AlarmEvent | CommandEvent | LimitEvent | MissionEvent | ParameterEvent | TransferEvent | NoteEvent | HolderEvent
+    | TextEvent | DiveEvent | ReplayEvent,
     Field(discriminator="kind"),
 ]  # fmt: skip
 GapMessage = SamplesGapMessage | NewsGapMessage

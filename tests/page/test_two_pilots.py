@@ -119,7 +119,7 @@ def test_both_change_one_limit_at_once(pilots: Pilots, screenshot: Screenshot) -
     other.get_by_role("dialog").get_by_label("Greatest value").fill("35")
     ling.get_by_role("dialog").get_by_label("Greatest value").fill("25")
     ling.get_by_role("dialog").get_by_role("button", name="Set", exact=True).click()
-    other.get_by_text("ling has just set this limit: greatest 25°. Saving puts yours in its place.").wait_for()
+    other.get_by_text("ling has just set this limit: greatest 25°. “Set” puts yours in its place.").wait_for()
     assert other.get_by_role("dialog").get_by_label("Greatest value").input_value() == "35"
     other.screenshot(path=screenshot("two-pilots-one-limit").with_name("two-pilots-limit-told.png"))
     other.get_by_role("dialog").get_by_role("button", name="Set", exact=True).click()

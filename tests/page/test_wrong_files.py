@@ -47,7 +47,7 @@ def layers(past: Past) -> list[str]:
         ("cut.geojson", json.dumps(PLACE).encode()[:-9], "breaks off or has a mistake in it"),
         ("notes.geojson", b"dear diary", "This file is no GeoJSON."),
         ("empty.geojson", b"", "This file is empty."),
-        ("table.json", b'{"depth": [1, 2, 3]}', "type"),
+        ("table.json", b'{"depth": [1, 2, 3]}', "geojson: has no type; allowed: a FeatureCollection"),
         ("far.geojson", b'{"type": "Point", "coordinates": [500, 30]}', "-180"),
         ("chart.png", b"dear diary", "PNG or JPEG"),
     ],
@@ -132,7 +132,6 @@ def test_a_plan_that_is_none(
     notice = page.locator(".notice.problem", has_text="The plan on the desk is as it was.").first
     notice.wait_for()
     assert re.search(words, notice.inner_text()), notice.inner_text()
-    print(notice.inner_text())
     screenshot(f"wrong-plan-{'hostile' if '<' in name else re.sub('[^a-z]', '', name)}")
     assert page.locator("img[src='x']").count() == 0
     assert page.get_by_label("Name of the plan").input_value() == before, "the plan on the desk stays"

@@ -7,11 +7,17 @@ export class ApiError extends Error {
   readonly refusal: Refusal;
 
   constructor(status: number, refusal: Refusal) {
-    super(refusal.allowed ? `${refusal.reason} Allowed: ${refusal.allowed}.` : refusal.reason);
+    super(sentenceOf(refusal));
     this.name = 'ApiError';
     this.status = status;
     this.refusal = refusal;
   }
+}
+
+/** The reason, and what would be allowed unless the reason says so itself. */
+function sentenceOf({ reason, allowed }: Refusal): string {
+  if (!allowed || reason.includes(allowed)) return reason;
+  return /[.!?]$/.test(reason) ? `${reason} Allowed: ${allowed}.` : `${reason}; allowed: ${allowed}.`;
 }
 
 export type Query = Record<string, string | number | boolean | null | undefined>;

@@ -454,6 +454,7 @@ export interface components {
             unsigned_refused: number;
             wrongly_signed_refused: number;
             replayed_refused: number;
+            out_of_step_refused: number;
             round_trip_s: number | null;
             time_out_s: number | null;
             goodput_b_s: number;
@@ -1077,6 +1078,18 @@ export interface components {
             t: number;
             state: string;
             user: string | null;
+            log: components["schemas"]["StoredLog"] | null;
+        };
+        /** @description How far a log that lies ashore is in the archive; times are of the vehicle's clock [s since 1970]. */
+        StoredLog: {
+            /** @enum {string} */
+            state: "waiting" | "going" | "taken" | "refused";
+            words: string;
+            share: number;
+            samples: number;
+            dives: number;
+            begin: number | null;
+            end: number | null;
         };
         /** @description What happens at the surface. */
         Surfacing: {
@@ -1355,9 +1368,34 @@ export interface components {
             data: components["schemas"]["LimitChange"];
         };
         /** @description What the station says. */
-        LiveMessage: components["schemas"]["HelloMessage"] | components["schemas"]["PingMessage"] | components["schemas"]["SummaryMessage"] | components["schemas"]["ValuesMessage"] | components["schemas"]["SamplesMessage"] | components["schemas"]["SamplesGapMessage"] | components["schemas"]["NewsGapMessage"] | components["schemas"]["ErrorMessage"] | (components["schemas"]["AlarmEvent"] | components["schemas"]["CommandEvent"] | components["schemas"]["LimitEvent"] | components["schemas"]["MissionEvent"] | components["schemas"]["ParameterEvent"] | components["schemas"]["TransferEvent"] | components["schemas"]["NoteEvent"] | components["schemas"]["HolderEvent"] | components["schemas"]["TextEvent"] | components["schemas"]["DiveEvent"] | components["schemas"]["ReplayEvent"]);
+        LiveMessage: components["schemas"]["HelloMessage"] | components["schemas"]["PingMessage"] | components["schemas"]["SummaryMessage"] | components["schemas"]["ValuesMessage"] | components["schemas"]["SamplesMessage"] | components["schemas"]["SamplesGapMessage"] | components["schemas"]["NewsGapMessage"] | components["schemas"]["ErrorMessage"] | (components["schemas"]["AlarmEvent"] | components["schemas"]["CommandEvent"] | components["schemas"]["LimitEvent"] | components["schemas"]["MissionEvent"] | components["schemas"]["ParameterEvent"] | components["schemas"]["TransferEvent"] | components["schemas"]["NoteEvent"] | components["schemas"]["HolderEvent"] | components["schemas"]["TextEvent"] | components["schemas"]["DiveEvent"] | components["schemas"]["LogEvent"] | components["schemas"]["ReplayEvent"]);
         /** @description What a browser may say. */
         LiveRequest: components["schemas"]["Subscribe"] | components["schemas"]["Unsubscribe"];
+        /** @description A log that lies ashore, and how far it is in the archive. */
+        LogChange: {
+            /** @enum {string} */
+            state: "waiting" | "going" | "taken" | "refused";
+            words: string;
+            share: number;
+            samples: number;
+            dives: number;
+            begin: number | null;
+            end: number | null;
+            name: string;
+            sha256: string;
+        };
+        /** @description Something became of a log that goes into the archive. */
+        LogEvent: {
+            /** @constant */
+            type: "event";
+            vehicle: number | string | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "log";
+            data: components["schemas"]["LogChange"];
+        };
         /** @description The vehicle told of the mission that it holds; the API has it. */
         MissionAboardChanged: {
             aboard: boolean;
@@ -1655,6 +1693,7 @@ export type StateMachine = components['schemas']['StateMachine'];
 export type StationInfo = components['schemas']['StationInfo'];
 export type StationPlan = components['schemas']['StationPlan'];
 export type StoredFile = components['schemas']['StoredFile'];
+export type StoredLog = components['schemas']['StoredLog'];
 export type Surfacing = components['schemas']['Surfacing'];
 export type Take = components['schemas']['Take'];
 export type Token = components['schemas']['Token'];
@@ -1681,6 +1720,8 @@ export type LimitChange = components['schemas']['LimitChange'];
 export type LimitEvent = components['schemas']['LimitEvent'];
 export type LiveMessage = components['schemas']['LiveMessage'];
 export type LiveRequest = components['schemas']['LiveRequest'];
+export type LogChange = components['schemas']['LogChange'];
+export type LogEvent = components['schemas']['LogEvent'];
 export type MissionAboardChanged = components['schemas']['MissionAboardChanged'];
 export type MissionEvent = components['schemas']['MissionEvent'];
 export type NewsGapMessage = components['schemas']['NewsGapMessage'];

@@ -43,6 +43,7 @@ export type {
   StateMachine,
   StationInfo,
   StoredFile,
+  StoredLog,
   Token,
   TokenMade,
   TrackAnswer as Track,

@@ -1,10 +1,25 @@
 /** Files of a vehicle and their transfers, as the page shows them. */
 
-import type { Transfer } from '../../lib/types';
+import type { StoredLog, Transfer } from '../../lib/types';
 import { bytes } from '../../lib/units';
 import { plainState, type Tone } from '../commands/model';
 
 export type { FolderEntry as Entry, StoredFile, Transfer } from '../../lib/types';
+
+/** How far a log is in the archive, in words. */
+export function logWords(log: Omit<StoredLog, 'begin' | 'end'>): string {
+  if (log.state === 'waiting') return 'waits to go into the archive';
+  if (log.state === 'going') return `goes into the archive: ${Math.floor(100 * log.share)} %`;
+  if (log.state === 'refused') return `not in the archive: ${log.words}`;
+  const told = `in the archive: ${counted(log.samples, 'sample')}, ${counted(log.dives, 'dive')}`;
+  return log.words.startsWith('whole') ? told : `${told}; ${log.words}`;
+}
+
+/** A number of things, its thousands apart. */
+export function counted(count: number, thing: string): string {
+  const digits = String(count).replace(/\B(?=(\d{3})+$)/g, '\u202f');
+  return `${digits} ${thing}${count === 1 ? '' : 's'}`;
+}
 
 /** How much of a file is there, 0 to 1; null before its size is known. */
 export function shareOf(transfer: Transfer): number | null {

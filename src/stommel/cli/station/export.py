@@ -69,7 +69,7 @@ def export(
     url = database_url(settings, database, folder)
     require_there(address_of(url))
     with Archive.open(url) as archive:
-        _require_known(archive, vehicle)
+        require_known(archive, vehicle)
         write = _write_telemetry if what is What.telemetry else _write_ctd
         count = write(archive, vehicle, *span, output)
     answer: dict[str, Any] = {"vehicle": vehicle, "what": str(what), "samples": count}
@@ -89,7 +89,14 @@ def _span(begin: str, end: str) -> tuple[float, float]:
     return span
 
 
-def _require_known(archive: "Archive", vehicle: int) -> None:
+def require_known(archive: "Archive", vehicle: int) -> None:
+    """Refuse a vehicle of which the archive holds nothing.
+
+    Raises
+    ------
+    NotInArchiveError
+        It names those that are there.
+    """
     known = archive.vehicles()
     if vehicle not in known:
         among = ", ".join(f"{number} ({name})" for number, name in known.items()) or "none"

@@ -29,7 +29,7 @@ class Happening(NamedTuple):
     """Something that people should know at once."""
 
     kind: str
-    """alarm, command, limit, mission, parameter, transfer, note, holder, text, dive or replay."""
+    """alarm, command, limit, mission, parameter, transfer, note, holder, text, dive, log or replay."""
     vehicle: Vehicle | None
     data: Mapping[str, Any]
     """As `web.live_messages` declares it."""

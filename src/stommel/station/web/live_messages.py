@@ -10,7 +10,7 @@ from stommel.station.people.holders import Hold
 from stommel.station.web.routes.alarms import AlarmRow
 from stommel.station.web.routes.commands import Command
 from stommel.station.web.routes.data import Dive
-from stommel.station.web.routes.files import Transfer
+from stommel.station.web.routes.files import StoredLog, Transfer
 from stommel.station.web.routes.missions import Mission
 from stommel.station.web.routes.notes import NoteRow
 from stommel.station.web.routes.parameters import ParameterWrite
@@ -230,6 +230,20 @@ class DiveEvent(_Event):
     data: Dive
 
 
+class LogChange(StoredLog):
+    """A log that lies ashore, and how far it is in the archive."""
+
+    name: str
+    sha256: str
+
+
+class LogEvent(_Event):
+    """Something became of a log that goes into the archive."""
+
+    kind: Literal["log"]
+    data: LogChange
+
+
 class ReplayEvent(_Event):
     """A replay began, changed or ended."""
 
@@ -239,7 +253,7 @@ class ReplayEvent(_Event):
 
 LiveEvent = Annotated[
     AlarmEvent | CommandEvent | LimitEvent | MissionEvent | ParameterEvent | TransferEvent | NoteEvent | HolderEvent
-    | TextEvent | DiveEvent | ReplayEvent,
+    | TextEvent | DiveEvent | LogEvent | ReplayEvent,
     Field(discriminator="kind"),
 ]  # fmt: skip
 GapMessage = SamplesGapMessage | NewsGapMessage

@@ -7,6 +7,8 @@ import pytest
 from tests.page.manned import told
 from tests.page.waiting import until
 
+expect = pytest.importorskip("playwright.sync_api").expect
+
 
 @pytest.fixture
 def view(page: Any, station: str) -> Any:
@@ -25,8 +27,6 @@ def parameter(station: str, name: str) -> dict[str, Any]:
 
 
 def test_every_parameter_of_the_vehicle_is_listed_by_component(view: Any, station: str) -> None:
-    from playwright.sync_api import expect
-
     def names() -> set[str]:
         answer = told(station, "/vehicles/1/parameters")
         return {each["name"] for one in answer["components"] for each in one["parameters"]}
@@ -36,11 +36,25 @@ def test_every_parameter_of_the_vehicle_is_listed_by_component(view: Any, statio
     for component in told(station, "/vehicles/1/parameters")["components"]:
         view.get_by_role("button", name=component["name"]).click()
         expect(shown).to_have_count(len(component["parameters"]))
+        assert all(each["words"] for each in component["parameters"]), "the vehicle tells what each means"
+
+
+def test_values_are_shown_and_written_in_the_units_that_people_speak(view: Any, station: str) -> None:
+    """Oracle: cubic metres as the vehicle has them, by hand a millionth of the millilitres typed."""
+    row = parameter(station, "PUMP_FLOW")
+    assert row["unit"] == "m3/s"
+    view.locator("[data-parameter='PUMP_FLOW']").click()
+    field = view.get_by_label("New value, ml/s")
+    assert float(field.input_value()) == pytest.approx(1e6 * row["value"], rel=1e-6)
+    wanted = 9.25 if abs(row["value"] - 9.25e-6) > 1e-9 else 9.5
+    field.fill(str(wanted))
+    view.get_by_role("button", name="Write").click()
+    view.locator("[data-outcome='done']").wait_for(timeout=60_000)
+    assert parameter(station, "PUMP_FLOW")["value"] == pytest.approx(1e-6 * wanted, rel=1e-6)
+    expect(view.locator("[data-parameter='PUMP_FLOW']")).to_contain_text(f"{wanted} ml/s")
 
 
 def test_a_search_finds_by_name_words_and_unit(view: Any, screenshot: Any) -> None:
-    from playwright.sync_api import expect
-
     search = view.get_by_label("Search parameters by name, words or unit")
     view.keyboard.press("/")
     expect(search).to_be_focused()
@@ -54,8 +68,6 @@ def test_a_search_finds_by_name_words_and_unit(view: Any, screenshot: Any) -> No
 
 def test_a_value_is_checked_before_it_is_sent_then_written_and_kept_with_who(view: Any, station: str) -> None:
     """Oracle: the parameter as the vehicle told it to the station afterwards, and its history."""
-    from playwright.sync_api import expect
-
     row = parameter(station, "SURFACE_TIME")
     view.locator("[data-parameter='SURFACE_TIME']").focus()
     view.keyboard.press("Enter")
@@ -74,8 +86,6 @@ def test_a_value_is_checked_before_it_is_sent_then_written_and_kept_with_who(vie
 
 
 def test_what_was_typed_outlives_a_reload(view: Any, station: str) -> None:
-    from playwright.sync_api import expect
-
     view.locator("[data-parameter='SURFACE_TIME']").click()
     view.get_by_label("New value, s").fill("4321")
     view.reload()

@@ -9,9 +9,8 @@ from typing import Any, NamedTuple
 import pytest
 
 from tests.page.conftest import Screenshot
-from tests.page.manned import kind, manned, sign_in
+from tests.page.manned import kind, sign_in
 
-__all__ = ["manned"]
 pytestmark = pytest.mark.timeout(300)
 
 

@@ -13,11 +13,10 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.page.manned import PASSWORD, manned, sign_in
+from tests.page.manned import PASSWORD, sign_in
 from tests.page.past import Past
 from tests.page.test_plots import DRAWN
 
-__all__ = ["manned"]
 pytestmark = pytest.mark.timeout(240)
 DAY = 86_400.0
 WRONG = """

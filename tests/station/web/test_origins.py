@@ -77,9 +77,7 @@ def test_two_hosts_at_once(quay: httpx.Client) -> None:
 
 def test_nothing_is_shared_with_other_sites(quay: httpx.Client) -> None:
     for method in ("GET", "OPTIONS"):
-        answer = quay.request(
-            method, "/api/station", headers={"Origin": EVIL, "Access-Control-Request-Method": "POST"}
-        )
+        answer = quay.request(method, "/api/station", headers={"Origin": EVIL, "Access-Control-Request-Method": "POST"})
         assert not [name for name in answer.headers if name.startswith("access-control")]
         assert answer.headers["cross-origin-resource-policy"] == "same-origin"
 

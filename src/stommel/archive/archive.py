@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Self
@@ -43,6 +43,8 @@ class Archive:
         self._busy_timeout = busy_timeout_s
         self._one_writer = threading.Lock()
         self._numbers: dict[str, int] = {}
+        self.before_writing: Callable[[], None] = _nothing
+        """Called in each transaction that writes, before anything is written; what it raises forbids it."""
 
     @classmethod
     def open(cls, url: str, *, busy_timeout_s: float = 5.0) -> Self:
@@ -103,6 +105,7 @@ class Archive:
             with telling(self.name), self.engine.connect() as connection:
                 connection.execution_options(**{WRITING: True})
                 with connection.begin():
+                    self.before_writing()
                     yield connection
         finally:
             self._one_writer.release()
@@ -210,6 +213,10 @@ class Archive:
         for key, number in found:
             added[key] = number
         return {**self._numbers, **added}
+
+
+def _nothing() -> None:
+    """Before writing, where one may always write."""
 
 
 def _make_folder(file: Path) -> None:

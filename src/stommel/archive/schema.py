@@ -17,8 +17,9 @@ from sqlalchemy import (
     MetaData,
     String,
     Table,
-    Text,
 )
+
+from stommel.archive.wording import Name, Words
 
 metadata = MetaData(
     naming_convention={
@@ -45,8 +46,8 @@ vehicles = Table(
     "vehicles",
     metadata,
     Column("id", Integer, primary_key=True, autoincrement=False),  # its system number on the link
-    Column("name", String, nullable=False),
-    Column("model", String, nullable=False),  # name of its vehicle file, or ""
+    Column("name", Name, nullable=False),
+    Column("model", Name, nullable=False),  # name of its vehicle file, or ""
     Column("added_us", BigInteger, nullable=False),
 )
 
@@ -73,7 +74,7 @@ channels = Table(
     "channels",
     metadata,
     Column("id", Integer, primary_key=True, autoincrement=True),
-    Column("key", String, nullable=False, unique=True),
+    Column("key", Name, nullable=False, unique=True),
 )
 
 samples = Table(
@@ -120,7 +121,7 @@ texts = Table(
     _vehicle(),
     Column("t_us", BigInteger, nullable=False),
     Column("severity", Integer, nullable=False),  # MAVLink's: 0 emergency ... 7 debug
-    Column("words", Text, nullable=False),
+    Column("words", Words, nullable=False),
     Index("ix_texts_vehicle_id_t_us", "vehicle_id", "t_us"),
 )
 
@@ -158,14 +159,14 @@ commands = Table(
     metadata,
     Column("id", String(16), primary_key=True),  # 64 bits in hexadecimal
     _vehicle(),
-    Column("user", String, nullable=False),
+    Column("user", Name, nullable=False),
     Column("given_us", BigInteger, nullable=False),
     Column("expires_us", BigInteger, nullable=False),
-    Column("name", String, nullable=False),
+    Column("name", Name, nullable=False),
     Column("parameters", JSON, nullable=False),
-    Column("occasion", String, nullable=False),  # when it may be executed: at_once, at_next_surfacing, until_expiry
-    Column("state", String, nullable=False),
-    Column("outcome", Text),
+    Column("occasion", Name, nullable=False),  # when it may be executed: at_once, at_next_surfacing, until_expiry
+    Column("state", Name, nullable=False),
+    Column("outcome", Words),
     Column("changed_us", BigInteger, nullable=False),
     Index("ix_commands_vehicle_id_given_us", "vehicle_id", "given_us"),
 )
@@ -176,8 +177,8 @@ command_history = Table(
     _id(),
     Column("command_id", String(16), ForeignKey("commands.id"), nullable=False, index=True),
     Column("t_us", BigInteger, nullable=False),
-    Column("state", String, nullable=False),
-    Column("words", Text),
+    Column("state", Name, nullable=False),
+    Column("words", Words),
 )
 
 parameters = Table(
@@ -186,12 +187,12 @@ parameters = Table(
     _id(),
     _vehicle(),
     Column("component", Integer, nullable=False),
-    Column("name", String, nullable=False),
+    Column("name", Name, nullable=False),
     Column("value", Double, nullable=False),
-    Column("kind", String, nullable=False),
+    Column("kind", Name, nullable=False),
     Column("t_us", BigInteger, nullable=False),
-    Column("user", String),
-    Column("source", String, nullable=False),  # 'vehicle' or 'written'
+    Column("user", Name),
+    Column("source", Name, nullable=False),  # 'vehicle' or 'written'
     Index("ix_parameters_vehicle_id_component_name_t_us", "vehicle_id", "component", "name", "t_us"),
 )
 """History: the newest row of a name is what it is."""
@@ -202,13 +203,13 @@ missions = Table(
     _id(),
     _vehicle(),
     Column("t_us", BigInteger, nullable=False),
-    Column("user", String),
-    Column("name", String, nullable=False),
+    Column("user", Name),
+    Column("name", Name, nullable=False),
     Column("sha256", String(64), nullable=False),
-    Column("orders", Text, nullable=False),
+    Column("orders", Words, nullable=False),
     Column("plan", JSON(none_as_null=True)),
     Column("preview", JSON(none_as_null=True)),
-    Column("state", String, nullable=False),
+    Column("state", Name, nullable=False),
     Index("ix_missions_vehicle_id_t_us", "vehicle_id", "t_us"),
 )
 
@@ -218,9 +219,9 @@ mission_history = Table(
     _id(),
     Column("mission_id", _NUMBER, ForeignKey("missions.id"), nullable=False, index=True),
     Column("t_us", BigInteger, nullable=False),
-    Column("user", String),
-    Column("state", String, nullable=False),
-    Column("words", Text),
+    Column("user", Name),
+    Column("state", Name, nullable=False),
+    Column("words", Words),
 )
 
 files = Table(
@@ -228,15 +229,15 @@ files = Table(
     metadata,
     _id(),
     _vehicle(),
-    Column("path", String, nullable=False),  # aboard the vehicle
+    Column("path", Name, nullable=False),  # aboard the vehicle
     Column("size", BigInteger),
     Column("sha256", String(64)),
     Column("t_us", BigInteger, nullable=False),
     Column("direction", String(8), nullable=False),  # download or upload
-    Column("user", String),
-    Column("state", String, nullable=False),
-    Column("reason", Text),
-    Column("stored_as", String),  # below the station's folder
+    Column("user", Name),
+    Column("state", Name, nullable=False),
+    Column("reason", Words),
+    Column("stored_as", Name),  # below the station's folder
     Index("ix_files_vehicle_id_t_us", "vehicle_id", "t_us"),
 )
 
@@ -245,15 +246,15 @@ alarms = Table(
     metadata,
     _id(),
     _vehicle(nullable=True),  # none: of the station itself
-    Column("key", String, nullable=False),
-    Column("words", Text, nullable=False),
-    Column("severity", String, nullable=False),
+    Column("key", Name, nullable=False),
+    Column("words", Words, nullable=False),
+    Column("severity", Name, nullable=False),
     Column("raised_us", BigInteger, nullable=False),
     Column("cleared_us", BigInteger),
     Column("acknowledged_us", BigInteger),
-    Column("acknowledged_by", String),
+    Column("acknowledged_by", Name),
     Column("value", Double),
-    Column("note", Text),
+    Column("note", Words),
     Index("ix_alarms_vehicle_id_raised_us", "vehicle_id", "raised_us"),
 )
 
@@ -261,14 +262,14 @@ limits = Table(
     "limits",
     metadata,
     _vehicle(key=True),
-    Column("channel", String, primary_key=True),
+    Column("channel", Name, primary_key=True),
     Column("low", Double),
     Column("high", Double),
     Column("hysteresis", Double, nullable=False),
     Column("delay_s", Double, nullable=False),
-    Column("severity", String, nullable=False),
+    Column("severity", Name, nullable=False),
     Column("changed_us", BigInteger, nullable=False),
-    Column("changed_by", String, nullable=False),
+    Column("changed_by", Name, nullable=False),
 )
 
 notes = Table(
@@ -278,17 +279,17 @@ notes = Table(
     _vehicle(nullable=True),
     Column("t_us", BigInteger, nullable=False),
     Column("written_us", BigInteger, nullable=False),  # by the station's clock; t_us may be any time before
-    Column("user", String, nullable=False),
-    Column("words", Text, nullable=False),
+    Column("user", Name, nullable=False),
+    Column("words", Words, nullable=False),
     Index("ix_notes_vehicle_id_t_us", "vehicle_id", "t_us"),
 )
 
 users = Table(
     "users",
     metadata,
-    Column("name", String, primary_key=True),
-    Column("password_hash", String, nullable=False),
-    Column("role", String, nullable=False),  # viewer, pilot or admin
+    Column("name", Name, primary_key=True),
+    Column("password_hash", Name, nullable=False),
+    Column("role", Name, nullable=False),  # viewer, pilot or admin
     Column("added_us", BigInteger, nullable=False),
     Column("disabled", Boolean, nullable=False),
 )
@@ -297,11 +298,11 @@ sessions = Table(
     "sessions",
     metadata,
     Column("id_hash", String(64), primary_key=True),
-    Column("user", String, ForeignKey("users.name", ondelete="CASCADE"), nullable=False, index=True),
+    Column("user", Name, ForeignKey("users.name", ondelete="CASCADE"), nullable=False, index=True),
     Column("made_us", BigInteger, nullable=False),
     Column("expires_us", BigInteger, nullable=False),
     Column("last_used_us", BigInteger),
-    Column("address", String),
+    Column("address", Name),
 )
 
 tokens = Table(
@@ -309,9 +310,9 @@ tokens = Table(
     metadata,
     _id(),
     Column("hash", String(64), nullable=False, unique=True),
-    Column("user", String, ForeignKey("users.name", ondelete="CASCADE"), nullable=False, index=True),
-    Column("name", String, nullable=False),
-    Column("role", String, nullable=False),
+    Column("user", Name, ForeignKey("users.name", ondelete="CASCADE"), nullable=False, index=True),
+    Column("name", Name, nullable=False),
+    Column("role", Name, nullable=False),
     Column("made_us", BigInteger, nullable=False),
     Column("expires_us", BigInteger),
     Column("last_used_us", BigInteger),
@@ -321,11 +322,11 @@ holders = Table(
     "holders",
     metadata,
     Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
-    Column("user", String, nullable=False),  # no key of users: "local" is none of them
-    Column("role", String, nullable=False),
+    Column("user", Name, nullable=False),  # no key of users: "local" is none of them
+    Column("role", Name, nullable=False),
     Column("since_us", BigInteger, nullable=False),
-    Column("taken_from", String),
-    Column("reason", Text),
+    Column("taken_from", Name),
+    Column("reason", Words),
 )
 """Who holds command of a vehicle; no row where nobody does."""
 
@@ -334,9 +335,9 @@ audit = Table(
     metadata,
     _id(),
     Column("t_us", BigInteger, nullable=False, index=True),
-    Column("user", String),
-    Column("address", String),
-    Column("action", String, nullable=False),
+    Column("user", Name),
+    Column("address", Name),
+    Column("action", Name, nullable=False),
     Column("vehicle_id", Integer),  # also of a vehicle that is not there
     Column("detail", JSON(none_as_null=True)),
 )
@@ -345,8 +346,8 @@ layers = Table(
     "layers",
     metadata,
     _id(),
-    Column("name", String, nullable=False),
-    Column("kind", String, nullable=False),  # 'geojson' or the media type of an image
+    Column("name", Name, nullable=False),
+    Column("kind", Name, nullable=False),  # 'geojson' or the media type of an image
     Column("bounds", JSON(none_as_null=True)),  # west, south, east, north [deg]
     Column("content", LargeBinary, nullable=False),
 )

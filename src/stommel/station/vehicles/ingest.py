@@ -131,10 +131,6 @@ class Ingest:
         """All that waits."""
         return Batch(self.frames, self.samples, self.texts, self.dives, self.ctd)
 
-    def keep_frames_only(self) -> None:
-        """Give up what was made of the frames, which nobody can store; they themselves are kept."""
-        self.samples, self.texts, self.dives, self.ctd = [], [], [], []
-
     def stored(self) -> None:
         """It is on the disk."""
         self.frames, self.samples, self.texts, self.dives, self.ctd = [], [], [], [], []

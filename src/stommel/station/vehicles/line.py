@@ -1,7 +1,7 @@
 """The line to one vehicle: a thread that hears, keeps, and only then answers."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from contextlib import ExitStack
 from pathlib import Path
@@ -90,6 +90,8 @@ class VehicleLine:
         """Looks that went wrong."""
         self.failure = ""
         """The last of them, in words."""
+        self.left_out = 0
+        """Rows of what came that no archive takes; their frames are kept."""
         self._archive, self._committed = archive, committed
         self._services = self.end.session.services
         self._transport: Transport | None = None
@@ -227,18 +229,25 @@ class VehicleLine:
         self._store_at = real
         batch = ingest.batch()
         try:
-            self._archive.store(self.vehicle, batch)
-        except ArchiveRequestError as error:
-            self.failure = f"what came is kept as frames only: {error}"
-            ingest.keep_frames_only()
-            return False
+            kept = self._archive.store_sound(self.vehicle, batch)
         except ArchiveError as error:
             self.archive_reason = str(error)
             return False
+        except Exception as error:  # noqa: BLE001 - a defect; an abort goes out all the same
+            self._failed("keeping what came", error)
+            self.archive_reason = self.failure
+            return False
         ingest.stored()
         self.archive_reason = ""
-        self._committed(self, batch)
+        self._leave_out(kept.left_out)
+        self._committed(self, kept.batch)
         return True
+
+    def _leave_out(self, rows: Sequence[str]) -> None:
+        """Tell of rows that no archive takes; the frames that brought them are kept."""
+        if rows:
+            self.left_out += len(rows)
+            self.failure = f"{self.left_out} values were left out, their frames are kept; the last: {rows[-1]}"[:500]
 
     def _follow(self, t: float, followers: list[Follower]) -> None:
         for follower in list(followers):

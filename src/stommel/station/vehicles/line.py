@@ -184,7 +184,7 @@ class VehicleLine:
         if kept or self.archive_reason:
             self._follow(t, self.tellers)
         if transport is not None:
-            self._speak(transport, real, t, kept=kept)
+            self._speak(transport, real, t, kept=kept and not self.archive_reason)
         self._keep_clock(real)
         if real - self._status_at >= STATUS_EVERY:
             self._status_at, self._status = real, self._seen(t)

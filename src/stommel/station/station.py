@@ -12,6 +12,7 @@ from stommel.link.transports.address import read_address
 from stommel.plans.preview.previews import Previews
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
+from stommel.station.people.afterwards import Afterwards
 from stommel.station.people.holders import Hold
 from stommel.station.people.people import People
 from stommel.station.replay.replays import Replays
@@ -65,7 +66,9 @@ class Station:
             hold_archive(self.archive, self._held)
             self.previews = Previews()
             self._held.callback(self.previews.close)
-            self.people = People(self.archive, told=self._holder_changed)
+            afterwards = Afterwards()
+            self._held.callback(afterwards.stop)
+            self.people = People(self.archive, told=self._holder_changed, later=afterwards)
             self.replays = Replays(self.archive, self.hub)
             self._held.callback(self.replays.stop)
             self.alarms = alarms_of(settings, self.archive, self.hub, self._title)

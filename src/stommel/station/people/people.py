@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Callable
 
+from stommel.station.people.afterwards import Later, at_once
 from stommel.station.people.attempts import Attempts
 from stommel.station.people.audit import Audit
 from stommel.station.people.errors import WrongLoginError
@@ -27,15 +28,17 @@ class People:
         Seconds since 1970 at the station.
     told
         Hears who holds command of a vehicle from now on; None where nobody does.
+    later
+        Writes down when somebody came, without letting them wait.
     """
 
     def __init__(
         self, archive: Database, *, clock: Callable[[], float] = time.time,
-        told: Callable[[int, Hold | None], None] | None = None,
+        told: Callable[[int, Hold | None], None] | None = None, later: Later = at_once,
     ) -> None:  # fmt: skip
         self.users = Users(archive, clock)
-        self.sessions = Sessions(archive, clock)
-        self.tokens = Tokens(archive, clock)
+        self.sessions = Sessions(archive, clock, later)
+        self.tokens = Tokens(archive, clock, later)
         self.audit = Audit(archive, clock)
         self.holders = Holders(archive, clock, told or _nobody_hears)
         self.attempts = Attempts()

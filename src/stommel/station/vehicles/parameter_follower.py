@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from stommel.link.endings import Ending
+from stommel.link.parameters.client import ParameterClient
 from stommel.link.parameters.known import KnownSet
 from stommel.link.parameters.single import SingleOutcome
 from stommel.station.vehicles.line import VehicleLine
@@ -67,6 +68,17 @@ class ParameterFollower:
         self.writes: deque[Write] = deque(maxlen=MOST_WRITES)
         self._asked_at: float | None = None
         self._refreshed: object = None
+        self.refreshing: dict[str, Any] | None = None
+        """How far a refreshing was when the line looked last; None while there is none."""
+
+    def refresh(self, client: ParameterClient, t: float) -> None:
+        """Ask the vehicle for all."""
+        client.refresh(t, WITHIN)
+        self._see(client, t)
+
+    def _see(self, client: ParameterClient, t: float) -> None:
+        progress = client.progress(t)
+        self.refreshing = progress._asdict() if client.refreshed is None and progress.of > 0 else None
 
     def look(self, line: VehicleLine, t: float) -> None:
         """Write what has changed; the first time that the vehicle is heard, ask it."""
@@ -79,7 +91,7 @@ class ParameterFollower:
             self.latest = self._rows.latest(line.vehicle)
         if self._asked_at is None and line.end.is_heard(t):
             self._asked_at = t
-            client.refresh(t, WITHIN)
+            self.refresh(client, t)
         for outcome in client.outcomes():
             self._take(line, outcome)
         self._compare(line)
@@ -87,6 +99,7 @@ class ParameterFollower:
             self._refreshed = client.refreshed
             if client.refreshed is not None:
                 self._tell(line.vehicle, {"refreshed": True})
+        self._see(client, t)
 
     def _take(self, line: VehicleLine, outcome: SingleOutcome) -> None:
         for write in self.writes:

@@ -45,39 +45,35 @@ class Parameters:
         line.followers.append(follower)
 
     def known(self, vehicle: int) -> dict[str, Any]:
-        """All parameters as they are known now, as the API tells them."""
-        follower = self._followers[vehicle]
-
-        def look(end: ShoreEnd, t: float) -> dict[str, Any]:
-            client = end.parameters
-            progress = client.progress(t)
-            ended = {outcome.component: outcome for outcome in client.refreshed or ()}
-            running = client.refreshed is None and progress.of > 0
-            return {
-                "refreshing": progress._asdict() if running else None,
-                "components": [
-                    {
-                        "component": known.component, "name": known.name, "state": known.state.name.lower(),
-                        "whole": known.component in ended and ended[known.component].ending is Ending.WHOLE,
-                        "reason": ended[known.component].words if known.component in ended else "not asked for yet",
-                        "parameters": _described(known, follower.latest or {}),
-                    }
-                    for known in sorted(client.known.sets.values(), key=lambda each: each.component)
-                ],
-                "missing": [
-                    {"component": outcome.component, "name": outcome.name, "reason": outcome.words}
-                    for outcome in ended.values()
-                    if outcome.component not in client.known.sets
-                ],
-                "notes": list(client.known.notes),
-                "writes": [write.told() for write in reversed(follower.writes)],
-            }  # fmt: skip
-
-        return ask(self._lines[vehicle], look)
+        """All parameters as they were known when the line looked last, as the API tells them; waits for no line."""
+        line, follower = self._lines[vehicle], self._followers[vehicle]
+        client, latest = line.end.parameters, follower.latest or {}
+        ended = {outcome.component: outcome for outcome in client.refreshed or ()}
+        sets = dict(client.known.sets)  # each is replaced as a whole, in the line's thread
+        return {
+            "refreshing": follower.refreshing,
+            "components": [
+                {
+                    "component": known.component, "name": known.name, "state": known.state.name.lower(),
+                    "whole": known.component in ended and ended[known.component].ending is Ending.WHOLE,
+                    "reason": ended[known.component].words if known.component in ended else "not asked for yet",
+                    "parameters": _described(known, latest),
+                }
+                for _, known in sorted(sets.items())
+            ],
+            "missing": [
+                {"component": outcome.component, "name": outcome.name, "reason": outcome.words}
+                for outcome in ended.values()
+                if outcome.component not in sets
+            ],
+            "notes": list(client.known.notes),
+            "writes": [write.told() for write in list(follower.writes)[::-1]],
+        }  # fmt: skip
 
     def refresh(self, vehicle: int) -> None:
         """Ask the vehicle for all; what has not changed costs one message."""
-        ask(self._lines[vehicle], lambda end, t: end.parameters.refresh(t, WITHIN))
+        follower = self._followers[vehicle]
+        ask(self._lines[vehicle], lambda end, t: follower.refresh(end.parameters, t))
 
     def write(self, vehicle: int, user: str, component: int, name: str, value: float) -> Write:
         """Begin to set a parameter; what becomes of it is told as it happens.

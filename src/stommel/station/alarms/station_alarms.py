@@ -76,6 +76,8 @@ class StationAlarms:
         self._register = Register(self.history, self._tell, self.alerts.take)
         self._watched: dict[int, _Watched] = {}
         self._lock = Lock()
+        self._one_person = Lock()
+        """Held while a limit is changed, so that what is watched is what is kept."""
         self._troubles: dict[str, dict[str, str]] = {}
         self._stopped = Event()
         self._thread = Thread(target=self._run, name="alarms", daemon=True)
@@ -200,8 +202,9 @@ class StationAlarms:
             The archive does not take it; the one before is still watched.
         """
         watched = self._watched[vehicle]
-        self._limits.put(vehicle, limit, user)
-        self._register.put(vehicle, watched.watch.put(limit, watched.now()))
+        with self._one_person:
+            self._limits.put(vehicle, limit, user)
+            self._register.put(vehicle, watched.watch.put(limit, watched.now()))
 
     def remove_limit(self, vehicle: int, channel: str, user: str) -> bool:
         """Watch a channel no more; whether it had a limit.
@@ -212,8 +215,9 @@ class StationAlarms:
             The archive does not take it; it is still watched.
         """
         watched = self._watched[vehicle]
-        if channel not in {limit.channel for limit in watched.watch.limits()}:
-            return False
-        self._limits.remove(vehicle, channel, user)
-        self._register.put(vehicle, watched.watch.remove(channel, watched.now()) or [])
-        return True
+        with self._one_person:
+            if channel not in {limit.channel for limit in watched.watch.limits()}:
+                return False
+            self._limits.remove(vehicle, channel, user)
+            self._register.put(vehicle, watched.watch.remove(channel, watched.now()) or [])
+            return True

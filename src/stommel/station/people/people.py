@@ -4,6 +4,8 @@ import threading
 import time
 from collections.abc import Callable
 
+from sqlalchemy import Connection
+
 from stommel.station.people.afterwards import Later, at_once
 from stommel.station.people.attempts import Attempts
 from stommel.station.people.audit import Audit
@@ -98,16 +100,19 @@ class People:
     def change(
         self, name: str, *, role: Role | None = None, disabled: bool | None = None, password: str | None = None
     ) -> Person:
-        """As `Users.change`; who may no longer fly gives up command."""
-        person = self.users.change(name, role=role, disabled=disabled, password=password)
-        if person.disabled or not person.role.may(Role.PILOT):
-            self.holders.leave(person.name)
-        return person
+        """As `Users.change`; who may no longer fly gives up command, in the same transaction."""
+        with self.holders.leaving() as leave:
+
+            def changed(connection: Connection, person: Person) -> None:
+                if person.disabled or not person.role.may(Role.PILOT):
+                    leave(connection, person.name)
+
+            return self.users.change(name, role=role, disabled=disabled, password=password, changed=changed)
 
     def remove(self, name: str) -> None:
-        """As `Users.remove`; what the person held is free."""
-        self.users.remove(name)
-        self.holders.leave(spelled(name))
+        """As `Users.remove`; what the person held is free, in the same transaction."""
+        with self.holders.leaving() as leave:
+            self.users.remove(name, lambda connection, person: leave(connection, person.name))
 
 
 def _nobody_hears(_vehicle: int, _hold: Hold | None) -> None:

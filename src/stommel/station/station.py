@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import asdict
+from threading import Thread
 from typing import Any
 
 from stommel.archive import Archive, Batch
@@ -180,4 +181,13 @@ class Station:
             line.stop()
         if self._is_started:
             self.alarms.stop()
+        if any(line.is_running for line in lines):
+            Thread(target=self._give_back, args=(lines,), name="station ends", daemon=True).start()
+        else:
+            self._held.close()
+
+    def _give_back(self, lines: Sequence[VehicleLine]) -> None:
+        """Keep folder and archive from another station until no line writes there any more."""
+        for line in lines:
+            line.wait()
         self._held.close()

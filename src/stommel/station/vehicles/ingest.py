@@ -15,6 +15,8 @@ from stommel.station.clock import FIRST, LAST, VehicleClock
 
 MOST_FRAMES = 50_000
 """That wait for an archive that does not take them; beyond, the line is not read."""
+MOST_EARLY = 4 << 20
+"""Bytes that wait for the clock of a simulated vehicle; if it is not told until then, ours stands for it."""
 LINK_EVERY = 10.0
 """Between two looks at the statistics of the link [s]."""
 NEAR = 60.0
@@ -52,6 +54,7 @@ class Ingest:
         self._intervals: dict[str, tuple[float, float]] = {}
         """When each message came last, and its mean interval [s]."""
         self._early: list[Early] = []
+        self._early_bytes = 0
         self._first_boot = math.inf
         """Its time since boot when it was heard first, while its clock was not set [s]."""
         self._link_at = -math.inf
@@ -77,7 +80,8 @@ class Ingest:
         if not clock.is_set:
             if data:
                 self._early.append((data, accepted, t))
-            if self._is_long_unset(accepted):
+                self._early_bytes += len(data)
+            if self._early_bytes >= MOST_EARLY or self._is_long_unset(accepted):
                 clock.hear(min(max(t, FIRST), LAST), t)  # without a fix it may never know
             if not clock.is_set:
                 return
@@ -85,7 +89,7 @@ class Ingest:
             self._take(*early)
         if not self._early or self._early[-1][1] is not accepted:
             self._take(data, accepted, t)
-        self._early = []
+        self._early, self._early_bytes = [], 0
 
     def _is_long_unset(self, accepted: Sequence[Received]) -> bool:
         """Whether the vehicle was heard for long by its own time, of which a slow simulation has less than we."""
@@ -115,7 +119,7 @@ class Ingest:
     @property
     def is_full(self) -> bool:
         """Whether no more can be kept."""
-        return len(self.frames) + len(self._early) >= MOST_FRAMES
+        return len(self.frames) >= MOST_FRAMES
 
     @property
     def has_news(self) -> bool:

@@ -115,11 +115,20 @@ class VehicleLine:
         self._wake.set()
 
     def stop(self, within: float = 5.0) -> None:
-        """End, with all that came stored if the archive takes it."""
+        """End, with all that came stored if the archive takes it.
+
+        A thread that takes longer, as one that waits for a slow disk, keeps the vehicle's folder until it has ended.
+        """
         self.end_soon()
-        if self._thread.ident is not None:
+        if self._thread.ident is None:
+            self._held.close()
+        else:
             self._thread.join(within)
-        self._held.close()
+
+    def wait(self) -> None:
+        """Return when the line has ended, however long that takes."""
+        if self._thread.ident is not None:
+            self._thread.join()
 
     def ask(self, function: Callable[[ShoreEnd, float], T]) -> "Future[T]":
         """Let the line's thread call a function with the end and the time of the link, at its next look.
@@ -166,7 +175,10 @@ class VehicleLine:
                 self._ends.wait(AGAIN)
             self._wake.wait(BUSY if time.monotonic() < self._lively else QUIET)
             self._wake.clear()
-        self._finish()
+        try:
+            self._finish()
+        finally:
+            self._held.close()
 
     def _look(self) -> None:
         real, t = time.monotonic(), self.clock.link_now()

@@ -259,7 +259,7 @@ class Sea:
         if key in self.executed:
             state = State.DONE
         if key not in self.sent:
-            state = State.NOT_KNOWN
+            state = State.CANCELLED  # it never heard of it, and is asked only once it is over or taken back
         if state is State.DONE:
             self.executed.add(key)
         values: dict[str, Any] = {

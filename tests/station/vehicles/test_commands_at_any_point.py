@@ -12,7 +12,7 @@ from stommel.station.vehicles import asking
 from tests.station.vehicles.quay_of_commands import Sea
 
 SEEDS = int(os.environ.get("STOMMEL_COMMAND_SEEDS", "400"))
-"""In CI; 20 000 were run by hand."""
+"""In CI; 5 000 of each kind were run by hand."""
 
 
 @pytest.fixture(autouse=True)

@@ -197,6 +197,23 @@ parameters = Table(
 )
 """History: the newest row of a name is what it is."""
 
+parameter_writes = Table(
+    "parameter_writes",
+    metadata,
+    _id(),
+    _vehicle(),
+    Column("component", Integer, nullable=False),
+    Column("name", Name, nullable=False),
+    Column("value", Double, nullable=False),
+    Column("user", Name, nullable=False),
+    Column("t_us", BigInteger, nullable=False),
+    Column("state", Name, nullable=False),
+    Column("words", Words, nullable=False),
+    Column("holds", Double),
+    Index("ix_parameter_writes_vehicle_id_id", "vehicle_id", "id"),
+)
+"""Values that people set, and what became of each."""
+
 missions = Table(
     "missions",
     metadata,

@@ -129,7 +129,8 @@ class CommandFollower:
             told = (state_of(report), report.words)
             if self._written.get(report.id) != told:
                 self._write(line, report, told, t)
-        self._written = {report.id: self._written[report.id] for report in reports}
+        known = {report.id for report in reports}
+        self._written = {id: told for id, told in self._written.items() if id in known}
         self.percents = {f"{each.id:016x}": each.percent for each in reports if each.percent != UNKNOWN_PERCENT}
 
     def _add_unwritten(self) -> None:
@@ -165,10 +166,9 @@ class CommandFollower:
         before = self._rows.find(line.vehicle, id)
         if before is None:
             self._rows.add(_foreign(line, report, now))
-        elif before.state == NOT_SENT and not report.is_last:  # a disk that seemed not to keep it has kept it
-            line.end.commands.cancel(report.id, t)
-            report = line.end.commands.report(report.id, t)
-            told = (state_of(report), report.words)
+        elif before.state == NOT_SENT and not report.sent and not report.is_last:
+            line.end.commands.cancel(report.id, t)  # a disk that seemed not to keep it has kept it
+            return  # the next look sees whether the disk has that
         if before is not None and (before.state, before.words) != told:
             self._rows.change(id, *told, now)
         self._written[report.id] = told

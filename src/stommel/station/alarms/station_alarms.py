@@ -3,6 +3,7 @@
 import logging
 import time
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from threading import Event, Lock, Thread
 from typing import Any, NamedTuple
 
@@ -55,6 +56,8 @@ class StationAlarms:
         Who tells people that are away.
     settings, alerts
         `[alarms]` and `[alerts]` of station.toml.
+    folder
+        Where alerts wait over a restart; None: nowhere.
     """
 
     def __init__(
@@ -65,13 +68,17 @@ class StationAlarms:
         sender: Sender,
         settings: AlarmSettings | None = None,
         alerts: AlertSettings | None = None,
+        folder: Path | None = None,
     ) -> None:
         self._archive, self._naming, self._publish = archive, naming, publish
         self._settings = settings or AlarmSettings()
         self.history = History(archive)
         self._limits = LimitTable(archive)
         self.alerts = Alerts(
-            alerts or AlertSettings(), sender, lambda way, reason: self.report(ALERTS_FAILING, way, reason)
+            alerts or AlertSettings(),
+            sender,
+            lambda way, reason: self.report(ALERTS_FAILING, way, reason),
+            folder=folder,
         )
         self._register = Register(self.history, self._tell, self.alerts.take)
         self._watched: dict[int, _Watched] = {}

@@ -107,7 +107,7 @@ def test_an_archive_that_is_not_sound_is_told_by_words_and_status(stommel: Comma
 def test_migrate_leaves_an_archive_of_today_as_it_is(stommel: Command, sea: Path) -> None:
     done = stommel("station", "migrate", "--database", sea)
     assert done.status == 0, done.err
-    assert "up to date (stommel_0001)" in done.out
+    assert "up to date (stommel_0002)" in done.out
 
 
 @pytest.mark.parametrize(

@@ -110,7 +110,7 @@ def test_every_column_of_words_makes_them_clean() -> None:
     }
     assert rough == {
         "frames.direction", "files.direction", "commands.id", "command_history.command_id", "missions.sha256",
-        "files.sha256", "sessions.id_hash", "tokens.hash",
+        "files.sha256", "sessions.id_hash", "tokens.hash", "logs.sha256",
     }  # fmt: skip
     assert isinstance(metadata.tables["texts"].c.words.type, Name)
 

@@ -2,12 +2,12 @@
 
 import json
 import re
-from collections.abc import Callable
 from typing import Any
 
 import pytest
 
 from tests.page import fake_glider as glider
+from tests.page.waiting import until
 
 NOW = glider.EPOCH + 5000.0
 
@@ -49,15 +49,6 @@ def played(page: Any, fake_station: str) -> PlayedStation:
     return station
 
 
-def until(page: Any, true: Callable[[], bool], seconds: float = 20.0) -> None:
-    """Let the page go on until something holds."""
-    for _ in range(int(seconds / 0.05)):
-        if true():
-            return
-        page.wait_for_timeout(50)
-    pytest.fail("it did not happen in time")
-
-
 def tile(page: Any, label: str) -> Any:
     """The tile of a channel."""
     return page.locator(f'[data-channel="{label}"]')
@@ -74,14 +65,19 @@ def test_after_a_lost_socket_every_tile_shows_its_latest_value_and_age(page: Any
     until(page, lambda: {json.dumps(sorted(m["channels"])) for m in played.asked[1]} >= before)
     played.tell("temperature_degc", NOW - 3000.0, 14.5)  # of the archive: older than twice its period of 600 s
     water.get_by_text("14.5").wait_for()
-    assert "stale" in (water.get_attribute("class") or "")
+    until(page, lambda: "stale" in (water.get_attribute("class") or ""))
     water.get_by_text(re.compile("^old, (49|50|51)")).wait_for()
 
 
 def test_a_subscription_that_fails_leaves_the_others_alone(page: Any, played: PlayedStation) -> None:
     """akhenry/openmct-yamcs#220: opening one view dropped all live data."""
-    attitude = next(m["id"] for m in played.asked[-1] if m.get("channels") == ["pitch_deg", "roll_deg", "heading_deg"])
-    played.sockets[-1].send(json.dumps({"type": "error", "id": attitude, "reason": "There is no such channel."}))
+
+    def attitude() -> list[str]:
+        wanted = ["pitch_deg", "roll_deg", "heading_deg"]
+        return [m["id"] for m in played.asked[-1] if m.get("channels") == wanted]
+
+    until(page, attitude)
+    played.sockets[-1].send(json.dumps({"type": "error", "id": attitude()[0], "reason": "There is no such channel."}))
     played.tell("depth_m", NOW - 1.0, 87.25)
     tile(page, "Depth").get_by_text("87.3").wait_for()
     assert len(played.sockets) == 1
@@ -116,8 +112,8 @@ def test_the_page_says_that_the_station_is_lost_and_tries_again(page: Any, fake_
     sockets[0].close()
     banner = page.get_by_text("The station is not reached")
     banner.wait_for()
-    assert page.locator(".lamp", has_text="station lost").count() == 1
+    page.locator(".lamp", has_text="station lost").wait_for()
     page.get_by_role("link", name="ZJU glider", exact=True).wait_for()  # what was known stays
     refuse["now"] = False
-    banner.wait_for(state="detached", timeout=15_000)
+    banner.wait_for(state="detached")
     assert len(sockets) == 2

@@ -8,8 +8,7 @@ import httpx
 import pytest
 
 from tests.page.past import Past
-
-pytestmark = pytest.mark.timeout(180)
+from tests.page.waiting import at_rest, becomes, passes, until
 
 
 @pytest.fixture(autouse=True)
@@ -50,23 +49,25 @@ def depth_at(past: Past, t: float) -> float:
 
 
 def test_a_replay_shows_what_the_archive_has_of_that_time(page: Any, past: Past, screenshot: Any) -> None:
-    begun(page, past, "600")
-    page.wait_for_timeout(2500)
+    begun(page, past, "300")
+    until(page, lambda: states(past)[0]["at"] > past.begin + 600.0)
     screenshot("replay")
     page.get_by_role("button", name="Pause").click()
     page.get_by_role("button", name="Go on").wait_for()
-    page.wait_for_timeout(1200)
     (state,) = states(past)
     assert state["paused"]
     assert past.begin < state["at"] < past.begin + 7200
-    assert depth_told(page) == pytest.approx(depth_at(past, state["at"]), abs=0.2)
-    still = states(past)[0]["at"]
-    page.wait_for_timeout(700)
-    assert states(past)[0]["at"] == still, "while it is paused its time stands still"
+    becomes(page, lambda: depth_told(page), pytest.approx(depth_at(past, state["at"]), abs=0.2))
+    until(page, lambda: newest_drawn(page) > state["at"] - 30.0)
+    passes(page, 700)
+    assert states(past)[0]["at"] == state["at"], "while it is paused its time stands still"
+    assert newest_drawn(page) <= state["at"] + 1e-3, "nothing is shown that had not happened yet"
+
+
+def newest_drawn(page: Any) -> float:
+    """Time of the newest depth that is drawn."""
     drawn = page.evaluate("document.querySelector('[data-panel=path]').drawn")
-    t = [at for at, value in zip(*drawn["data"], strict=False) if value is not None]
-    assert max(t) <= state["at"] + 1e-3, "nothing is shown that had not happened yet"
-    assert max(t) > state["at"] - 30.0
+    return max((at for at, value in zip(*drawn["data"], strict=False) if value is not None), default=-math.inf)
 
 
 def test_a_replay_jumps_and_changes_its_speed(page: Any, past: Past) -> None:
@@ -77,21 +78,22 @@ def test_a_replay_jumps_and_changes_its_speed(page: Any, past: Past) -> None:
         input.dispatchEvent(new Event('input', {{ bubbles: true }}));
         input.dispatchEvent(new Event('change', {{ bubbles: true }}));
     }}""")
-    page.wait_for_timeout(1500)
+    until(page, lambda: states(past)[0]["at"] >= past.begin + 3600)
     at = states(past)[0]["at"]
-    assert past.begin + 3600 <= at <= past.begin + 3660
-    assert depth_told(page) == pytest.approx(depth_at(past, at), abs=2.0)
+    assert at <= past.begin + 3660
+    until(page, lambda: abs(depth_told(page) - depth_at(past, states(past)[0]["at"])) <= 2.0)
     page.get_by_role("combobox", name="Speed").select_option("200")
-    page.wait_for_timeout(1500)
-    assert states(past)[0]["speed"] == 200.0
-    assert states(past)[0]["at"] > at + 100.0
+    becomes(page, lambda: states(past)[0]["speed"], 200.0)
+    until(page, lambda: states(past)[0]["at"] > at + 100.0)
 
 
 def test_the_end_is_reached_and_begun_again(page: Any, past: Past) -> None:
     begun(page, past, "1000")
     again = page.get_by_role("button", name="From the beginning")
-    again.wait_for(timeout=30_000)
-    assert states(past)[0]["at"] == math.floor(past.begin) + 7200
+    again.wait_for(timeout=240_000)
+    becomes(page, lambda: states(past)[0]["at"], math.floor(past.begin) + 7200)
+    page.get_by_role("combobox", name="Speed").select_option("1")
+    becomes(page, lambda: states(past)[0]["speed"], 1.0)
     again.click()
     page.get_by_role("button", name="Pause").wait_for()
     assert states(past)[0]["at"] < past.begin + 7000
@@ -108,9 +110,12 @@ def test_live_values_are_untouched_by_a_replay_at_full_speed(page: Any, past: Pa
     for k in range(10):
         past.speaker.say("ATTITUDE", time_boot_ms=0, pitch=math.radians(70.0 + k), roll=0.0, yaw=1.0)
         page.wait_for_timeout(200)
-    other.wait_for_timeout(1500)
-    row = other.evaluate("document.querySelector('[data-panel=attitude]').drawn.data[1]")
-    assert {round(value, 3) for value in row if value} >= {70.0 + k for k in range(10)}
+
+    def shown() -> set[float]:
+        row = other.evaluate("document.querySelector('[data-panel=attitude]').drawn?.data[1] ?? []")
+        return {round(value, 3) for value in row if value}
+
+    until(other, lambda: shown() >= {70.0 + k for k in range(10)})
     assert lost == []
     other.close()
 
@@ -120,8 +125,7 @@ def test_leaving_the_view_ends_the_replay(page: Any, past: Past) -> None:
     assert len(states(past)) == 1
     page.goto(f"{past.address}/#/vehicle/1/log")
     page.get_by_role("textbox", name="Note").wait_for()
-    page.wait_for_timeout(1000)
-    assert states(past) == []
+    becomes(page, lambda: states(past), [])
 
 
 def test_a_stretch_that_cannot_be_is_refused(page: Any, past: Past) -> None:
@@ -138,8 +142,8 @@ def test_nobody_is_kept_from_replays(page: Any, past: Past, serious: Any, screen
     """axe-core: no serious finding, before and while it runs."""
     page.goto(f"{past.address}/#/vehicle/1/replay")
     page.get_by_role("button", name="Start the replay").wait_for()
-    page.wait_for_timeout(500)
+    at_rest(page)
     assert serious() == []
-    begun(page, past).wait_for_timeout(1500)
+    at_rest(begun(page, past))
     screenshot("replay-tablet-dark")
     assert serious() == []

@@ -17,6 +17,7 @@ from sqlalchemy import (
     MetaData,
     String,
     Table,
+    UniqueConstraint,
 )
 
 from stommel.archive.wording import Name, Words
@@ -49,6 +50,7 @@ vehicles = Table(
     Column("name", Name, nullable=False),
     Column("model", Name, nullable=False),  # name of its vehicle file, or ""
     Column("added_us", BigInteger, nullable=False),
+    Column("ctd_changes", BigInteger, nullable=False, server_default="0"),  # how often its CTD samples have changed
 )
 
 frames = Table(
@@ -140,6 +142,7 @@ dives = Table(
     Column("current_north_m_s", Double),
     Column("current_east_m_s", Double),
     Column("energy_j", Double),
+    Column("log_id", _NUMBER),  # of the log that told of it; none: the radio alone
 )
 
 ctd = Table(
@@ -151,8 +154,44 @@ ctd = Table(
     Column("pressure_dbar", Double),
     Column("temperature_degc", Double),
     Column("conductivity_s_m", Double),
+    Column("log_id", _NUMBER),  # of the log that it is from; none: it came by radio
     sqlite_with_rowid=False,
 )
+
+ctd_hours = Table(
+    "ctd_hours",
+    metadata,
+    Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
+    Column("hour", BigInteger, primary_key=True, autoincrement=False),  # since 1970
+    Column("count", BigInteger, nullable=False),
+    Column("change", BigInteger, nullable=False),  # of vehicles.ctd_changes, that touched it last
+    Index("ix_ctd_hours_vehicle_id_change", "vehicle_id", "change"),
+    sqlite_with_rowid=False,
+)
+"""How many CTD samples each hour has; whoever knows them up to a change reads what has changed since alone."""
+
+logs = Table(
+    "logs",
+    metadata,
+    _id(),
+    _vehicle(),
+    Column("sha256", String(64), nullable=False),
+    Column("name", Name, nullable=False),
+    Column("size", BigInteger, nullable=False),
+    Column("series", Name, nullable=False),  # as its header says
+    Column("software", Name, nullable=False),
+    Column("state", Name, nullable=False),  # going, taken or refused
+    Column("words", Words, nullable=False),  # whether it was whole; why it was refused
+    Column("offset", BigInteger, nullable=False),  # up to where it is in the archive [byte]
+    Column("records", BigInteger, nullable=False),
+    Column("samples", BigInteger, nullable=False),
+    Column("dives", BigInteger, nullable=False),
+    Column("begin_us", BigInteger),
+    Column("end_us", BigInteger),
+    Column("changed_us", BigInteger, nullable=False),  # by the station's clock
+    UniqueConstraint("vehicle_id", "sha256"),
+)
+"""Files of vehicles' logs that were taken in, each once by its content; telemetry from begin to end is from it too."""
 
 commands = Table(
     "commands",

@@ -32,11 +32,12 @@ def sift_batch(connection: Connection, vehicle: int, batch: Batch, numbers_of: N
     """
     now = time.time()
     whole = batch._replace(frames=[_of_now(row, now) for row in batch.frames])
-    kept: list[Sequence[Any]] = []
     left_out: list[str] = []
-    for write, rows in writers(connection, vehicle, whole, numbers_of):
-        kept.append(_sound(connection, rows, write, lambda row, why: left_out.append(_words(row, why)), name))
-    return Sifted(Batch(*kept), left_out)
+    kept = {
+        part: _sound(connection, rows, write, lambda row, why: left_out.append(_words(row, why)), name)
+        for part, write, rows in writers(connection, vehicle, whole, numbers_of)
+    }
+    return Sifted(whole._replace(**kept), left_out)
 
 
 def _of_now(row: FrameRow, now: float) -> FrameRow:

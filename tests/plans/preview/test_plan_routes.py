@@ -16,7 +16,7 @@ from tests.plans.plans import PLAN, plan_with
 
 
 def ended(client: httpx.Client, job: str) -> dict[str, Any]:
-    until = time.monotonic() + 120.0
+    until = time.monotonic() + 400.0
     while time.monotonic() < until:
         row: dict[str, Any] = client.get(f"/api/jobs/{job}").raise_for_status().json()
         if row["state"] in ("done", "failed", "cancelled"):

@@ -75,7 +75,7 @@ def test_no_request_breaks_it(address: str, method: str, path: str) -> None:
         operation = _documented()[path][method]
         mode = drawn.draw(sampled_from([GenerationMode.POSITIVE, GenerationMode.NEGATIVE]))
         case = drawn.draw(operation.as_strategy(generation_mode=mode))
-        check(case.call(base_url=address, timeout=30.0), method, case.formatted_path)
+        check(case.call(base_url=address, timeout=60.0), method, case.formatted_path)
 
     attempt()
 
@@ -95,7 +95,7 @@ def test_nasty_paths(address: str, method: str, path: str) -> None:
     """Injection and path traversal in every place of every path; vehicle 1 where another place is tried."""
     places = re.findall(r"\{[^}]*\}", path)
     body: dict[str, Any] = {} if method in ("GET", "DELETE") else {"json": {}}
-    with httpx.Client(base_url=address, timeout=30.0) as client:
+    with httpx.Client(base_url=address, timeout=60.0) as client:
         for place in places:
             for nasty in NASTY:
                 full = path.replace(place, nasty)
@@ -112,7 +112,7 @@ def test_nasty_questions(address: str, method: str, path: str) -> None:
     route = next(route for route in api_routes() if route.path == path and method in (route.methods or ()))
     names = [field.alias for field in route.dependant.query_params]
     where = re.sub(r"\{[^}]*\}", "1", path)
-    with httpx.Client(base_url=address, timeout=30.0) as client:
+    with httpx.Client(base_url=address, timeout=60.0) as client:
         for name in names:
             for nasty in NASTY:
                 answer = client.get(httpx.URL(f"{address}{where}?{name}={nasty}"))
@@ -131,7 +131,7 @@ BODIES = [
 @pytest.mark.parametrize(("method", "path"), [(m, p) for m, p in ROUTES if m in ("POST", "PUT", "PATCH", "DELETE")])
 def test_nasty_bodies(address: str, method: str, path: str) -> None:
     where = re.sub(r"\{[^}]*\}", "1", path)
-    with httpx.Client(base_url=address, timeout=30.0) as client:
+    with httpx.Client(base_url=address, timeout=60.0) as client:
         for kind in ("application/json", "text/plain", "application/x-www-form-urlencoded", "multipart/form-data", "%"):
             for body in BODIES if kind == "application/json" else BODIES[:4]:
                 answer = client.request(method, where, content=body, headers={"Content-Type": kind})
@@ -148,7 +148,7 @@ def test_bodies_are_bounded(address: str, method: str, path: str) -> None:
     if route.max_body_size is None:
         for kind in ("application/json", "text/plain"):
             answer = httpx.request(
-                method, f"{address}{where}", content=_without_length(), headers={"Content-Type": kind}, timeout=30.0
+                method, f"{address}{where}", content=_without_length(), headers={"Content-Type": kind}, timeout=60.0
             )
             # a body that no route asks for is not read at all
             assert answer.status_code == 413 or kind == "text/plain", answer.text
@@ -163,7 +163,7 @@ def _without_length() -> Iterator[bytes]:
 def _status_of_promise(address: str, method: str, where: str, length: int) -> int:
     """Status that answers the promise of a body, which never comes."""
     place = httpx.URL(address)
-    connection = HTTPConnection(place.host, place.port, timeout=10.0)
+    connection = HTTPConnection(place.host, place.port, timeout=60.0)
     try:
         connection.putrequest(method, where)
         connection.putheader("Content-Type", "application/octet-stream")

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from stommel.errors import StommelError
 from stommel.files.storage import Storage
 from stommel.link.frames import RawFrame
+from stommel.link.signing.in_step import InStep
 from stommel.link.signing.keys import Key, Keys, KeyStore
 from stommel.link.signing.refusals import Refusal, Refusals
 from stommel.link.signing.signature import holds, link_and_stamp, signed
@@ -69,6 +70,7 @@ class Guard:
         self.stamps: Stamps | None = None
         self.question = b""
         """What an end in doubt asks; the answer must repeat it."""
+        self.in_step = InStep()
         self.asked: bytes | None = None
         """What the other end asks in its doubt."""
         self._store, self._storage, self._clock, self._random = store, storage, clock, random
@@ -144,8 +146,8 @@ class Guard:
     def _begin(self, keys: Keys, storage: Storage) -> None:
         self.keys = keys
         self.stamps = Stamps(storage, stamp_of(keys.made), self._clock, fresh=keys.unused)
+        self.question = self._random(NONCE)
         if self.stamps.in_doubt:
-            self.question = self._random(NONCE)
             return
         if keys.unused:
             self.stamps.keep_now()
@@ -262,12 +264,16 @@ class Guard:
         if refusal is None:
             stamps.accept(stream, stamp, t)
             self._clocks.pop(stream, None)
-        elif refusal is Refusal.UNPROVED and name == "KEY_CHALLENGE_ANSWER" and self._is_answer(frame.payload):
+            self.in_step.accepted(stream)
+            return None
+        if refusal is Refusal.UNPROVED and name == "KEY_CHALLENGE_ANSWER" and self._is_answer(frame.payload):
             stamps.prove(stream, stamp, t)
             return None
-        elif refusal in (Refusal.STALE, Refusal.FAR_FUTURE) and len(self._clocks) < MOST_STREAMS:
+        if refusal in (Refusal.STALE, Refusal.FAR_FUTURE) and len(self._clocks) < MOST_STREAMS:
             self._clocks[stream] = stamps.offset(stamp, t)
-        return refusal
+        if name == "KEY_CHALLENGE" and self.asked is not None:
+            self.in_step.asked(stream, self.asked)
+        return self.in_step.refused(stream, refusal)
 
     def _is_answer(self, payload: bytes) -> bool:
         return bool(self.question) and hmac.compare_digest(payload.ljust(NONCE, b"\0")[:NONCE], self.question)

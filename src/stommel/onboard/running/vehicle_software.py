@@ -114,6 +114,7 @@ class VehicleSoftware:
             configuration.log,
             LogIdentity(__version__, database_hash(), file.vehicle, self.clock.utc()),
             t,
+            lambda at: self.clock.utc() + at - self.clock.monotonic(),
         )
         self.coordinator = Coordinator(configuration.coordinator, t, logbook=self.logbook, store=self.kept)
         for note in (*self.missions.notes, *self.kept.notes):

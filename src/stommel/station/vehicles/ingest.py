@@ -17,6 +17,8 @@ MOST_FRAMES = 50_000
 """That wait for an archive that does not take them; beyond, the line is not read."""
 MOST_EARLY = 4 << 20
 """Bytes that wait for the clock of a simulated vehicle; if it is not told until then, ours stands for it."""
+MOST_REFUSED = 10_000
+"""Looks that wait for the vehicle's clock; beyond, the oldest are forgotten that brought nothing that was believed."""
 LINK_EVERY = 10.0
 """Between two looks at the statistics of the link [s]."""
 NEAR = 60.0
@@ -55,6 +57,7 @@ class Ingest:
         """When each message came last, and its mean interval [s]."""
         self._early: list[Early] = []
         self._early_bytes = 0
+        self._is_early = False
         self._first_boot = math.inf
         """Its time since boot when it was heard first, while its clock was not set [s]."""
         self._link_at = -math.inf
@@ -81,6 +84,8 @@ class Ingest:
             if data:
                 self._early.append((data, accepted, t))
                 self._early_bytes += len(data)
+                self._is_early |= bool(accepted)
+                self._forget_refused()
             if self._early_bytes >= MOST_EARLY or self._is_long_unset(accepted):
                 clock.hear(min(max(t, FIRST), LAST), t)  # without a fix it may never know
             if not clock.is_set:
@@ -89,7 +94,15 @@ class Ingest:
             self._take(*early)
         if not self._early or self._early[-1][1] is not accepted:
             self._take(data, accepted, t)
-        self._early, self._early_bytes = [], 0
+        self._early, self._early_bytes, self._is_early = [], 0, False
+
+    def _forget_refused(self) -> None:
+        """Keep no more than so much of what was not believed: the line is to be read until the vehicle is heard."""
+        while len(self._early) > MOST_REFUSED or self._early_bytes >= MOST_EARLY:
+            place = next((k for k, (_, accepted, _) in enumerate(self._early) if not accepted), None)
+            if place is None:
+                return
+            self._early_bytes -= len(self._early.pop(place)[0])
 
     def _is_long_unset(self, accepted: Sequence[Received]) -> bool:
         """Whether the vehicle was heard for long by its own time, of which a slow simulation has less than we."""
@@ -128,8 +141,8 @@ class Ingest:
 
     @property
     def is_early(self) -> bool:
-        """Whether something waits for the vehicle's clock."""
-        return bool(self._early)
+        """Whether something that was believed waits for the vehicle's clock."""
+        return self._is_early
 
     def batch(self) -> Batch:
         """All that waits."""

@@ -27,6 +27,8 @@ class LinkFigures(BaseModel):
     unsigned_refused: int
     wrongly_signed_refused: int
     replayed_refused: int
+    out_of_step_refused: int
+    """Rightly signed, but said before the vehicle had heard this station: harmless, unless it goes on."""
     round_trip_s: float | None
     time_out_s: float | None
     goodput_b_s: float
@@ -84,7 +86,8 @@ def show_link(_user: Viewer, line: Line) -> LinkAnswer:
     figures = LinkFigures(
         good=told.good, bad=told.bad, duplicate=told.duplicate, lost=told.lost, loss_share=told.loss,
         unsigned_refused=told.refusals.unsigned, wrongly_signed_refused=told.refusals.wrongly_signed,
-        replayed_refused=told.refusals.replayed, round_trip_s=_known(told.round_trip_time),
+        replayed_refused=told.refusals.replayed, out_of_step_refused=told.refusals.out_of_step,
+        round_trip_s=_known(told.round_trip_time),
         time_out_s=_known(told.time_out), goodput_b_s=told.goodput, retransmit_ratio=told.retransmit_ratio,
         bytes_waiting=told.bytes_waiting, surface_time_left_s=_known(told.surface_time_left),
         is_signing=told.is_signing,

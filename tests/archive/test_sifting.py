@@ -5,13 +5,15 @@ Oracle: the same batch without that row, stored by `store` in another archive's 
 
 import math
 from pathlib import Path
+from typing import Any
 
 import pytest
 from sqlalchemy import String, select
 
 from stommel.archive import Archive, ArchiveRequestError, Batch, CtdRow, DiveRow, TextRow
+from stommel.archive.columns import metadata
 from stommel.archive.readers import samples_between
-from stommel.archive.schema import metadata, minutes
+from stommel.archive.schema import minutes
 from stommel.archive.wording import Name
 from stommel.station.vehicles.command_rows import CommandRow, CommandRows
 from stommel.station.vehicles.mission_rows import MissionRow, MissionRows
@@ -44,7 +46,7 @@ def content(archive: Archive, vehicle: int) -> tuple[object, ...]:
     """Everything that the archive has of a vehicle, cells too."""
     with archive.reading() as connection:
         samples = list(samples_between(connection, vehicle, T - 1e6, T + 1e6))
-        cells = connection.execute(select(minutes.c[3:]).where(minutes.c.vehicle_id == vehicle)).all()
+        cells = connection.execute(select(*list(minutes.c)[3:]).where(minutes.c.vehicle_id == vehicle)).all()
     frames = [stored.row for stored in archive.frames(vehicle)]
     return frames, samples, cells, archive.texts(vehicle), archive.dives(vehicle), archive.ctd(vehicle)
 
@@ -56,14 +58,15 @@ def test_a_row_that_no_database_takes_costs_that_row_alone(archive: Archive, poi
     kind, row = POISONS[poison]
     rows = list(getattr(SOUND, kind))
     rows.insert(place, row)
-    bad = SOUND._replace(**{kind: rows})
+    told: dict[str, Any] = {kind: rows}
+    bad = SOUND._replace(**told)
     with pytest.raises(ArchiveRequestError):
         archive.store(1, bad)
     sifted = archive.store_sound(1, bad)
     archive.store(2, SOUND)
     assert content(archive, 1) == content(archive, 2)
     assert len(sifted.left_out) == 1
-    assert [list(part) for part in sifted.batch] == [list(part) for part in SOUND]
+    assert [list(part) for part in sifted.batch[:5]] == [list(part) for part in SOUND[:5]]
 
 
 def test_a_channel_that_was_left_out_can_be_stored_afterwards(archive: Archive) -> None:

@@ -14,34 +14,13 @@ from sqlalchemy import (
     Index,
     Integer,
     LargeBinary,
-    MetaData,
     String,
     Table,
     UniqueConstraint,
 )
 
+from stommel.archive.columns import NUMBER, metadata, number_column, vehicle_column
 from stommel.archive.wording import Name, Words
-
-metadata = MetaData(
-    naming_convention={
-        "ix": "ix_%(table_name)s_%(column_0_N_name)s",
-        "uq": "uq_%(table_name)s_%(column_0_N_name)s",
-        "fk": "fk_%(table_name)s_%(column_0_N_name)s",
-        "pk": "pk_%(table_name)s",
-    }
-)
-
-_NUMBER = BigInteger().with_variant(Integer, "sqlite")
-"""Of rows counted by the database; only INTEGER counts by itself in SQLite."""
-
-
-def _id() -> Column[int]:
-    return Column("id", _NUMBER, primary_key=True, autoincrement=True)
-
-
-def _vehicle(*, key: bool = False, nullable: bool = False) -> Column[int]:
-    return Column("vehicle_id", Integer, ForeignKey("vehicles.id"), primary_key=key, nullable=nullable)
-
 
 vehicles = Table(
     "vehicles",
@@ -56,8 +35,8 @@ vehicles = Table(
 frames = Table(
     "frames",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("t_us", BigInteger, nullable=False),
     Column("received_us", BigInteger, nullable=False),
     Column("direction", String(3), nullable=False),  # 'in' or 'out', seen from the station
@@ -119,8 +98,8 @@ ten_minutes = _cells("ten_minutes", "ten")
 texts = Table(
     "texts",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("t_us", BigInteger, nullable=False),
     Column("severity", Integer, nullable=False),  # MAVLink's: 0 emergency ... 7 debug
     Column("words", Words, nullable=False),
@@ -130,7 +109,7 @@ texts = Table(
 dives = Table(
     "dives",
     metadata,
-    _vehicle(key=True),
+    vehicle_column(key=True),
     Column("dive", BigInteger, primary_key=True, autoincrement=False),
     Column("t_begin_us", BigInteger, primary_key=True, autoincrement=False),
     Column("t_end_us", BigInteger),
@@ -142,19 +121,19 @@ dives = Table(
     Column("current_north_m_s", Double),
     Column("current_east_m_s", Double),
     Column("energy_j", Double),
-    Column("log_id", _NUMBER),  # of the log that told of it; none: the radio alone
+    Column("log_id", NUMBER),  # of the log that told of it; none: the radio alone
 )
 
 ctd = Table(
     "ctd",
     metadata,
-    _vehicle(key=True),
+    vehicle_column(key=True),
     Column("t_us", BigInteger, primary_key=True, autoincrement=False),
     Column("dive", BigInteger),
     Column("pressure_dbar", Double),
     Column("temperature_degc", Double),
     Column("conductivity_s_m", Double),
-    Column("log_id", _NUMBER),  # of the log that it is from; none: it came by radio
+    Column("log_id", NUMBER),  # of the log that it is from; none: it came by radio
     sqlite_with_rowid=False,
 )
 
@@ -173,8 +152,8 @@ ctd_hours = Table(
 logs = Table(
     "logs",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("sha256", String(64), nullable=False),
     Column("name", Name, nullable=False),
     Column("size", BigInteger, nullable=False),
@@ -197,7 +176,7 @@ commands = Table(
     "commands",
     metadata,
     Column("id", String(16), primary_key=True),  # 64 bits in hexadecimal
-    _vehicle(),
+    vehicle_column(),
     Column("user", Name, nullable=False),
     Column("given_us", BigInteger, nullable=False),
     Column("expires_us", BigInteger, nullable=False),
@@ -213,7 +192,7 @@ commands = Table(
 command_history = Table(
     "command_history",
     metadata,
-    _id(),
+    number_column(),
     Column("command_id", String(16), ForeignKey("commands.id"), nullable=False, index=True),
     Column("t_us", BigInteger, nullable=False),
     Column("state", Name, nullable=False),
@@ -223,8 +202,8 @@ command_history = Table(
 parameters = Table(
     "parameters",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("component", Integer, nullable=False),
     Column("name", Name, nullable=False),
     Column("value", Double, nullable=False),
@@ -239,8 +218,8 @@ parameters = Table(
 parameter_writes = Table(
     "parameter_writes",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("component", Integer, nullable=False),
     Column("name", Name, nullable=False),
     Column("value", Double, nullable=False),
@@ -256,8 +235,8 @@ parameter_writes = Table(
 missions = Table(
     "missions",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("t_us", BigInteger, nullable=False),
     Column("user", Name),
     Column("name", Name, nullable=False),
@@ -272,8 +251,8 @@ missions = Table(
 mission_history = Table(
     "mission_history",
     metadata,
-    _id(),
-    Column("mission_id", _NUMBER, ForeignKey("missions.id"), nullable=False, index=True),
+    number_column(),
+    Column("mission_id", NUMBER, ForeignKey("missions.id"), nullable=False, index=True),
     Column("t_us", BigInteger, nullable=False),
     Column("user", Name),
     Column("state", Name, nullable=False),
@@ -283,8 +262,8 @@ mission_history = Table(
 files = Table(
     "files",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("path", Name, nullable=False),  # aboard the vehicle
     Column("size", BigInteger),
     Column("sha256", String(64)),
@@ -300,8 +279,8 @@ files = Table(
 alarms = Table(
     "alarms",
     metadata,
-    _id(),
-    _vehicle(nullable=True),  # none: of the station itself
+    number_column(),
+    vehicle_column(nullable=True),  # none: of the station itself
     Column("key", Name, nullable=False),
     Column("words", Words, nullable=False),
     Column("severity", Name, nullable=False),
@@ -317,7 +296,7 @@ alarms = Table(
 limits = Table(
     "limits",
     metadata,
-    _vehicle(key=True),
+    vehicle_column(key=True),
     Column("channel", Name, primary_key=True),
     Column("low", Double),
     Column("high", Double),
@@ -331,8 +310,8 @@ limits = Table(
 notes = Table(
     "notes",
     metadata,
-    _id(),
-    _vehicle(nullable=True),
+    number_column(),
+    vehicle_column(nullable=True),
     Column("t_us", BigInteger, nullable=False),
     Column("written_us", BigInteger, nullable=False),  # by the station's clock; t_us may be any time before
     Column("user", Name, nullable=False),
@@ -364,7 +343,7 @@ sessions = Table(
 tokens = Table(
     "tokens",
     metadata,
-    _id(),
+    number_column(),
     Column("hash", String(64), nullable=False, unique=True),
     Column("user", Name, ForeignKey("users.name", ondelete="CASCADE"), nullable=False, index=True),
     Column("name", Name, nullable=False),
@@ -389,7 +368,7 @@ holders = Table(
 audit = Table(
     "audit",
     metadata,
-    _id(),
+    number_column(),
     Column("t_us", BigInteger, nullable=False, index=True),
     Column("user", Name),
     Column("address", Name),
@@ -401,7 +380,7 @@ audit = Table(
 layers = Table(
     "layers",
     metadata,
-    _id(),
+    number_column(),
     Column("name", Name, nullable=False),
     Column("kind", Name, nullable=False),  # 'geojson' or the media type of an image
     Column("bounds", JSON(none_as_null=True)),  # west, south, east, north [deg]

@@ -33,7 +33,7 @@ def sift_batch(connection: Connection, vehicle: int, batch: Batch, numbers_of: N
     now = time.time()
     whole = batch._replace(frames=[_of_now(row, now) for row in batch.frames])
     left_out: list[str] = []
-    kept = {
+    kept: dict[str, Any] = {
         part: _sound(connection, rows, write, lambda row, why: left_out.append(_words(row, why)), name)
         for part, write, rows in writers(connection, vehicle, whole, numbers_of)
     }

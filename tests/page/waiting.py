@@ -22,13 +22,16 @@ class Traffic:
     def __init__(self, page: Any) -> None:
         self.asked, self.under_way = 0, set[Any]()
         page.on("request", self._begins)
-        page.on("requestfinished", self.under_way.discard)
-        page.on("requestfailed", self.under_way.discard)
+        page.on("requestfinished", self._ends)
+        page.on("requestfailed", self._ends)
         _traffic[page] = self
 
     def _begins(self, request: Any) -> None:
         self.asked += 1
         self.under_way.add(request)
+
+    def _ends(self, request: Any) -> None:
+        self.under_way.discard(request)
 
 
 def until(page: Any, holds: Callable[[], object]) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from stommel.archive import Archive
+from stommel.archive import Archive, Batch, CtdRow
 from stommel.station.people.roles import Role
 from stommel.station.web.app import api_routes, create_app
 from stommel.station.web.exposure import Exposure
@@ -25,6 +25,8 @@ ASKS_THE_VEHICLE = {"/api/vehicles/{vehicle}/listing"}
 LOOKS = sorted(
     {route.path for route in api_routes() if "GET" in (route.methods or ())} - ASKS_THE_VEHICLE - {"/api/openapi.json"}
 )
+DIVE = [CtdRow(1.7e9 + k, 1, abs(100.0 - k), 15.0, 4.0) for k in range(200)]
+"""Up and down once: profiles are found when somebody asks for them, and kept."""
 PLACES = {"vehicle": "1", "id": "0000000000000001"}
 
 
@@ -42,6 +44,7 @@ def held(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, httpx.C
     ):
         vehicle.connect()
         vehicle.say("GLIDER_STATE", time_boot_ms=1, depth=1.0)
+        found.archive.store(1, Batch(ctd=DIVE))
         until(lambda: found.hub.values(1))
         found.people.users.add("ada", PASSWORD, Role.ADMIN)
         session = logged_in(address, "ada")
@@ -57,6 +60,7 @@ def held(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, httpx.C
         writer = threading.Thread(target=write)
         writer.start()
         busy.wait()
+        found.people.audit._late.append({"t_us": 0, "action": "waits for the archive"})
         vehicle.say("GLIDER_STATE", time_boot_ms=2, depth=2.0)
         until(lambda: found.vehicles[1].ingest.has_news)  # and the line's thread waits for the writer
         with closing(session), closing(script):

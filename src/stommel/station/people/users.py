@@ -24,6 +24,10 @@ class Database(Protocol):
     def writing(self) -> AbstractContextManager[Connection]:
         """Connection of one transaction, committed at its end."""
 
+    @property
+    def is_written(self) -> bool:
+        """Whether somebody writes just now."""
+
 
 @dataclass(frozen=True)
 class Person:

@@ -94,6 +94,8 @@ class VehicleLine:
         """The last of them, in words."""
         self.left_out = 0
         """Rows of what came that no archive takes; their frames are kept."""
+        self.clock_failure = ""
+        """Why the clock of its world is not kept now, in words."""
         self._archive, self._committed = archive, committed
         self._services = self.end.session.services
         self._transport: Transport | None = None
@@ -158,7 +160,7 @@ class VehicleLine:
         reason = self.ended() or complaint(self.end, self._transport, self._transport_reason, self.ingest.came, t)
         return status_of(
             self.end, self.clock, self.ingest, self._transport, reason, self.settings.link, self.archive_reason,
-            self.failure, t,
+            self.failure or self.clock_failure, t,
         )  # fmt: skip
 
     @property
@@ -301,8 +303,9 @@ class VehicleLine:
     def _write_clock(self) -> None:
         try:
             self.clock.keep(self._storage)
+            self.clock_failure = ""
         except OSError as error:
-            self.failure = f"clock: cannot be kept: {error.strerror or error}"
+            self.clock_failure = f"clock: cannot be kept: {error.strerror or error}"
 
     def _finish(self) -> None:
         """Store the rest, and give all back."""

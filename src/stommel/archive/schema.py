@@ -50,6 +50,7 @@ vehicles = Table(
     Column("model", String, nullable=False),  # name of its vehicle file, or ""
     Column("added_us", BigInteger, nullable=False),
     Column("ctd_changes", BigInteger, nullable=False, server_default="0"),  # how often its CTD samples have changed
+    Column("profiles_change", BigInteger, nullable=False, server_default="0"),  # up to which `profiles` are known
 )
 
 frames = Table(
@@ -168,6 +169,25 @@ ctd_hours = Table(
     sqlite_with_rowid=False,
 )
 """How many CTD samples each hour has; whoever knows them up to a change reads what has changed since alone."""
+
+profiles = Table(
+    "profiles",
+    metadata,
+    Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
+    Column("first_us", BigInteger, primary_key=True, autoincrement=False),
+    Column("last_us", BigInteger, nullable=False),
+    Column("turned_us", BigInteger, nullable=False),  # the turning point before
+    Column("settled", Boolean, nullable=False),  # whether no later sample can change it
+    Column("direction", Integer, nullable=False),  # 1 down, -1 up
+    Column("samples", BigInteger, nullable=False),
+    Column("dive", BigInteger),
+    Column("latitude", Double),
+    Column("longitude", Double),
+    Column("least_depth_m", Double),
+    Column("greatest_depth_m", Double),
+    sqlite_with_rowid=False,
+)
+"""What was found in the CTD samples, so that it is not sought again after a restart; it may be emptied at any time."""
 
 logs = Table(
     "logs",

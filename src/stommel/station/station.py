@@ -2,11 +2,11 @@
 
 import time
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import asdict
 from typing import Any
 
-from stommel.archive import Archive, Batch
+from stommel.archive import Archive, ArchiveError, Batch
 from stommel.files.folder_lock import FolderInUseError, locked
 from stommel.link.transports.address import read_address
 from stommel.plans.preview.previews import Previews
@@ -182,4 +182,6 @@ class Station:
         if self._is_started:
             self.logs.stop()
             self.alarms.stop()
+            with suppress(ArchiveError):
+                self.people.audit.write_late()
         self._held.close()

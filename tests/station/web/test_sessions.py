@@ -95,8 +95,8 @@ def test_tokens_of_others_are_not_seen_nor_removed(paul: httpx.Client, pia: http
 
 
 @pytest.mark.parametrize("header", ["Bearer x", "Bearer", "Basic YTpi", "Token x"])
-def test_a_wrong_token_is_no_visitor_of_the_loopback(local: httpx.Client, header: str) -> None:
-    answer = local.get("/api/vehicles", headers={"Authorization": header})
+def test_a_wrong_token_is_no_visitor_of_the_loopback(quay: httpx.Client, header: str) -> None:
+    answer = quay.get("/api/vehicles", headers={"Authorization": header})
     assert answer.status_code == (200 if not header.partition(" ")[2].strip() else 401)
 
 

@@ -92,6 +92,8 @@ class VehicleLine:
         """Looks that went wrong."""
         self.failure = ""
         """The last of them, in words."""
+        self.clock_failure = ""
+        """Why the clock of its world is not kept now, in words."""
         self._archive, self._committed = archive, committed
         self._services = self.end.session.services
         self._transport: Transport | None = None
@@ -147,7 +149,7 @@ class VehicleLine:
         reason = self.ended() or complaint(self.end, self._transport, self._transport_reason, self.ingest.came, t)
         return status_of(
             self.end, self.clock, self.ingest, self._transport, reason, self.settings.link, self.archive_reason,
-            self.failure, t,
+            self.failure or self.clock_failure, t,
         )  # fmt: skip
 
     @property
@@ -280,8 +282,9 @@ class VehicleLine:
     def _write_clock(self) -> None:
         try:
             self.clock.keep(self._storage)
+            self.clock_failure = ""
         except OSError as error:
-            self.failure = f"clock: cannot be kept: {error.strerror or error}"
+            self.clock_failure = f"clock: cannot be kept: {error.strerror or error}"
 
     def _finish(self) -> None:
         """Store the rest, and give all back."""

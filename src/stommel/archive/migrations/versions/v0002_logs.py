@@ -1,4 +1,4 @@
-"""Logs of vehicles, what is from them, and how many CTD samples each hour has."""
+"""Logs of vehicles, what is from them, how many CTD samples each hour has, and the profiles that were found."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -16,7 +16,9 @@ def upgrade() -> None:
     op.add_column("ctd", sa.Column("log_id", _NUMBER))
     op.add_column("dives", sa.Column("log_id", _NUMBER))
     op.add_column("vehicles", sa.Column("ctd_changes", sa.BigInteger(), nullable=False, server_default="0"))
+    op.add_column("vehicles", sa.Column("profiles_change", sa.BigInteger(), nullable=False, server_default="0"))
     _make_hours()
+    _make_profiles()
     _make_logs()
 
 
@@ -36,6 +38,23 @@ def _make_hours() -> None:
         " SELECT vehicle_id, t_us / 3600000000, count(*), 1 FROM ctd GROUP BY vehicle_id, t_us / 3600000000"
     )
     op.execute("UPDATE vehicles SET ctd_changes = 1")
+
+
+def _make_profiles() -> None:
+    op.create_table(
+        "profiles",
+        sa.Column("vehicle_id", sa.Integer(), autoincrement=False, nullable=False),
+        sa.Column("first_us", sa.BigInteger(), autoincrement=False, nullable=False),
+        sa.Column("last_us", sa.BigInteger(), nullable=False),
+        sa.Column("turned_us", sa.BigInteger(), nullable=False),
+        sa.Column("settled", sa.Boolean(), nullable=False),
+        sa.Column("direction", sa.Integer(), nullable=False),
+        sa.Column("samples", sa.BigInteger(), nullable=False),
+        sa.Column("dive", sa.BigInteger()),
+        *(sa.Column(name, sa.Double()) for name in ("latitude", "longitude", "least_depth_m", "greatest_depth_m")),
+        sa.PrimaryKeyConstraint("vehicle_id", "first_us", name="pk_profiles"),
+        sqlite_with_rowid=False,
+    )
 
 
 def _make_logs() -> None:

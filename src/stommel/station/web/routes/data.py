@@ -17,9 +17,7 @@ from starlette.background import BackgroundTask
 
 from stommel.archive import schema
 from stommel.archive.times import GREATEST_TIME as LATEST
-from stommel.data.files import csv_lines, write_netcdf
-from stommel.data.gridding import section
-from stommel.data.summaries import profile_summaries
+from stommel.data.files import csv_of_pieces, write_netcdf_pieces
 from stommel.data.variables import BY_NAME
 from stommel.data.water_masses import density_lines
 from stommel.station.products.record import SampleRecords
@@ -124,6 +122,8 @@ class Section(BaseModel):
     words: str
     unit: str
     cell_m: float
+    stride: int
+    """Of so many profiles one is shown."""
     depth_m: list[float]
     """Middles of the cells."""
     profiles: list[SectionColumn]
@@ -143,7 +143,7 @@ class Diagram(BaseModel):
     """Conservative Temperature against Absolute Salinity."""
 
     samples: int
-    """In range; of many only some are given."""
+    """In range; of many only some are given, of very many those of some profiles."""
     absolute_salinity: list[float]
     conservative_temperature: list[float]
     depth_m: list[float]
@@ -170,8 +170,7 @@ def read_profiles(
     line: Line, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
 ) -> list[ProfileLine]:
     """Profiles that have samples between two times; each keeps its number."""
-    found = profile_summaries(records.of(line.vehicle))
-    return [ProfileLine(**row._asdict()) for row in found if row.end >= begin and row.begin <= end]
+    return [ProfileLine(**row._asdict()) for row in records.lines(line.vehicle, begin, end)]
 
 
 @router.get("/vehicles/{vehicle}/profiles/{number}")
@@ -179,13 +178,13 @@ def read_profile(
     line: Line, records: Records, _user: Viewer, number: Annotated[int, PathValue(ge=1, le=1_000_000)]
 ) -> Profile:
     """Samples of one profile."""
-    samples = records.of(line.vehicle)
-    samples = samples.isel(obs=np.flatnonzero(samples["profile_number"].values == number))
-    if not samples.sizes["obs"]:
+    found = records.profile(line.vehicle, number)
+    if found is None:
         raise refusal(404, f"there is no profile {number}", key="number", value=number)
+    about, samples = found
     names = [str(name) for name in samples.data_vars if name in BY_NAME]
     return Profile(
-        about=ProfileLine(**profile_summaries(samples)[0]._asdict()),
+        about=ProfileLine(**about._asdict()),
         units={name: BY_NAME[name].units for name in names},
         values={name: _plain(samples[name].values) for name in [*names, "time"]},
     )
@@ -203,7 +202,7 @@ def read_section(
 ) -> Section:
     """A variable in cells of depth by profile: means of the samples in each cell."""
     try:
-        made = section(records.between(line.vehicle, begin, end), variable, cell_m=cell_m)
+        made, stride = records.section(line.vehicle, variable, begin, end, cell_m)
     except ValueError as error:
         raise refusal(422, str(error), key="cell_m", value=cell_m) from None
     columns = {str(name): _plain(made[name].values) for name in made.data_vars if made[name].dims == ("profile",)}
@@ -212,6 +211,7 @@ def read_section(
         words=BY_NAME[variable].long_name,
         unit=BY_NAME[variable].units,
         cell_m=cell_m,
+        stride=stride,
         depth_m=made["depth"].values.tolist(),
         profiles=[
             SectionColumn.model_validate({**_NO_PLACE, **dict(zip(columns, row, strict=True))})
@@ -224,15 +224,15 @@ def read_section(
 @router.get("/vehicles/{vehicle}/ts", dependencies=[InOrder])
 def read_water_masses(line: Line, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST) -> Diagram:
     """Conservative Temperature against Absolute Salinity, with lines of equal potential density."""
-    samples = records.between(line.vehicle, begin, end)
     names = ("absolute_salinity", "conservative_temperature", "depth", "time", "profile_number")
-    columns = [samples[name].values for name in names]
+    read = [[piece[name].values for name in names] for piece in records.thinned(line.vehicle, begin, end, names)]
+    columns = [np.concatenate(parts) for parts in zip(*read, strict=True)]
     good = np.isfinite(columns[0]) & np.isfinite(columns[1])
     stride = max(1, -(-int(good.sum()) // MOST_POINTS))
     S, T, depth, t, profile = (column[good][::stride] for column in columns)
     lines = density_lines(_margin(S), _margin(T)) if S.size else ()
     return Diagram(
-        samples=int(good.sum()),
+        samples=records.count(line.vehicle, begin, end),
         absolute_salinity=S.tolist(),
         conservative_temperature=T.tolist(),
         depth_m=np.nan_to_num(depth).tolist(),
@@ -254,8 +254,8 @@ def download_csv(
     line: Line, station: TheStation, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
 ) -> StreamingResponse:
     """Samples between two times with everything derived, as CSV with the units in its head."""
-    made = trajectory(station.archive, line.vehicle, records.between(line.vehicle, begin, end))
-    return StreamingResponse(_utf8(made), media_type="text/csv", headers=_attachment(line.vehicle, "csv"))
+    pieces = (trajectory(station.archive, line.vehicle, each) for each in records.pieces(line.vehicle, begin, end))
+    return StreamingResponse(_utf8(pieces), media_type="text/csv", headers=_attachment(line.vehicle, "csv"))
 
 
 @router.get("/vehicles/{vehicle}/data.nc", response_class=FileResponse, dependencies=[InOrder])
@@ -263,10 +263,10 @@ def download_netcdf(
     line: Line, station: TheStation, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
 ) -> FileResponse:
     """Samples between two times with everything derived, as CF NetCDF."""
-    made = trajectory(station.archive, line.vehicle, records.between(line.vehicle, begin, end))
+    pieces = (trajectory(station.archive, line.vehicle, each) for each in records.pieces(line.vehicle, begin, end))
     folder = tempfile.TemporaryDirectory(prefix="stommel-")
     path = Path(folder.name) / "data.nc"
-    write_netcdf(made, path)
+    write_netcdf_pieces(pieces, path)
     return FileResponse(
         path,
         media_type="application/x-netcdf",
@@ -279,8 +279,8 @@ def _attachment(vehicle: int, ending: str) -> dict[str, str]:
     return {"Content-Disposition": f'attachment; filename="vehicle-{vehicle}.{ending}"'}
 
 
-def _utf8(made: xr.Dataset) -> Iterator[bytes]:
-    for text in csv_lines(made):
+def _utf8(pieces: Iterator[xr.Dataset]) -> Iterator[bytes]:
+    for text in csv_of_pieces(pieces):
         yield text.encode()
 
 

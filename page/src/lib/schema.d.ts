@@ -893,6 +893,7 @@ export interface components {
             words: string;
             unit: string;
             cell_m: number;
+            stride: number;
             depth_m: number[];
             profiles: components["schemas"]["SectionColumn"][];
             values: (number | null)[][];

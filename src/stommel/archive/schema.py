@@ -38,6 +38,10 @@ def _id() -> Column[int]:
     return Column("id", _NUMBER, primary_key=True, autoincrement=True)
 
 
+def _numbers(*names: str) -> list[Column[float]]:
+    return [Column(name, Double) for name in names]
+
+
 def _vehicle(*, key: bool = False, nullable: bool = False) -> Column[int]:
     return Column("vehicle_id", Integer, ForeignKey("vehicles.id"), primary_key=key, nullable=nullable)
 
@@ -134,14 +138,8 @@ dives = Table(
     Column("dive", BigInteger, primary_key=True, autoincrement=False),
     Column("t_begin_us", BigInteger, primary_key=True, autoincrement=False),
     Column("t_end_us", BigInteger),
-    Column("latitude_begin", Double),
-    Column("longitude_begin", Double),
-    Column("latitude_end", Double),
-    Column("longitude_end", Double),
-    Column("greatest_depth_m", Double),
-    Column("current_north_m_s", Double),
-    Column("current_east_m_s", Double),
-    Column("energy_j", Double),
+    *_numbers("latitude_begin", "longitude_begin", "latitude_end", "longitude_end", "greatest_depth_m"),
+    *_numbers("current_north_m_s", "current_east_m_s", "energy_j"),
     Column("log_id", _NUMBER),  # of the log that told of it; none: the radio alone
 )
 
@@ -151,9 +149,7 @@ ctd = Table(
     _vehicle(key=True),
     Column("t_us", BigInteger, primary_key=True, autoincrement=False),
     Column("dive", BigInteger),
-    Column("pressure_dbar", Double),
-    Column("temperature_degc", Double),
-    Column("conductivity_s_m", Double),
+    *_numbers("pressure_dbar", "temperature_degc", "conductivity_s_m"),
     Column("log_id", _NUMBER),  # of the log that it is from; none: it came by radio
     sqlite_with_rowid=False,
 )
@@ -181,10 +177,7 @@ profiles = Table(
     Column("direction", Integer, nullable=False),  # 1 down, -1 up
     Column("samples", BigInteger, nullable=False),
     Column("dive", BigInteger),
-    Column("latitude", Double),
-    Column("longitude", Double),
-    Column("least_depth_m", Double),
-    Column("greatest_depth_m", Double),
+    *_numbers("latitude", "longitude", "least_depth_m", "greatest_depth_m"),
     sqlite_with_rowid=False,
 )
 """What was found in the CTD samples, so that it is not sought again after a restart; it may be emptied at any time."""
@@ -202,11 +195,8 @@ logs = Table(
     Column("state", String, nullable=False),  # going, taken or refused
     Column("words", Text, nullable=False),  # whether it was whole; why it was refused
     Column("offset", BigInteger, nullable=False),  # up to where it is in the archive [byte]
-    Column("records", BigInteger, nullable=False),
-    Column("samples", BigInteger, nullable=False),
-    Column("dives", BigInteger, nullable=False),
-    Column("begin_us", BigInteger),
-    Column("end_us", BigInteger),
+    *(Column(name, BigInteger, nullable=False) for name in ("records", "samples", "dives")),
+    *(Column(name, BigInteger) for name in ("begin_us", "end_us")),
     Column("changed_us", BigInteger, nullable=False),  # by the station's clock
     UniqueConstraint("vehicle_id", "sha256"),
 )
@@ -321,8 +311,7 @@ limits = Table(
     metadata,
     _vehicle(key=True),
     Column("channel", String, primary_key=True),
-    Column("low", Double),
-    Column("high", Double),
+    *_numbers("low", "high"),
     Column("hysteresis", Double, nullable=False),
     Column("delay_s", Double, nullable=False),
     Column("severity", String, nullable=False),

@@ -23,7 +23,7 @@ REPEATS = 5
 
 @figure(unit="ms", bar=500.0)
 def station_profile_query_ms() -> Measurement:
-    """Measure the slowest answer of 5 million samples: profile, profiles, section and diagram of a day [ms]."""
+    """Measure the slowest answer of 5 million samples: a profile, all of them, section and T-S of a day [ms]."""
     with tempfile.TemporaryDirectory() as folder, Archive.open(str(Path(folder) / "ctd.sqlite")) as archive:
         _fill(archive)
         records = SampleRecords(archive)

@@ -73,14 +73,14 @@ def serve(command: list[str]) -> "Iterator[tuple[subprocess.Popen[bytes], str]]"
                 process.wait()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def built() -> None:
     """The page, which `make page` builds; `make test` does so before."""
     if not BUILT.exists():
         pytest.skip("the page is not built: make page")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def fake_station(built: None) -> Iterator[str]:
     """Address of a stand-in whose answers are made up: quick, with every state of the page on demand."""
     for _, address in serve([sys.executable, "-m", "tests.page.fake_station", "0"]):
@@ -93,7 +93,7 @@ def station_command(folder: Path, *arguments: str) -> list[str]:
     return [sys.executable, "-c", code, "station", "--folder", str(folder), "--port", "0", *arguments]
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def station(built: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Address of the real station with a simulated glider beside it, as `make run` starts it."""
     folder = tmp_path_factory.mktemp("station") / "flight"
@@ -179,10 +179,19 @@ def serious(page) -> Callable[[], list[str]]:
     return find
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def past(built: None, tmp_path_factory: pytest.TempPathFactory) -> "Iterator[Past]":
     """A real station with six hours of the past, and a vehicle that says what a test wants."""
     from tests.page.past import past_station
 
     with past_station(tmp_path_factory.mktemp("past")) as found:
         yield found
+
+
+@pytest.fixture(scope="package")
+def manned(built: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Address of a real station at which the people of `tests.page.manned` log in."""
+    from tests.page.manned import manned_station
+
+    with manned_station(tmp_path_factory.mktemp("manned")) as address:
+        yield address

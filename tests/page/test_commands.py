@@ -6,10 +6,8 @@ from typing import Any
 import pytest
 
 from stommel.link.commands.table import command_named
-from tests.page.manned import kind, manned, sign_in, told
+from tests.page.manned import kind, sign_in, told
 from tests.page.waiting import PATIENCE_S, until
-
-__all__ = ["manned"]
 
 
 @pytest.fixture

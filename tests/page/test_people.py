@@ -2,10 +2,8 @@
 
 from typing import Any
 
-from tests.page.manned import PASSWORD, kind, manned, sign_in, status
+from tests.page.manned import PASSWORD, kind, sign_in, status
 from tests.page.waiting import PATIENCE_S, becomes
-
-__all__ = ["manned"]
 
 
 def test_a_wrong_password_is_told_and_the_right_one_lets_in(page: Any, manned: str) -> None:

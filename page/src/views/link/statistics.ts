@@ -1,44 +1,14 @@
 /** Figures of a link as plain tiles: what each is, and what it means. */
 
+import type { LinkFigures } from '../../lib/types';
 import type { FrameRow } from './frames';
 import { bytes, duration, number, quantity } from '../../lib/units';
 
-/** What one end counts; null for what was not measured. */
-export interface Figures {
-  good: number;
-  bad: number;
-  duplicate: number;
-  lost: number;
-  loss_share: number;
-  unsigned_refused: number;
-  wrongly_signed_refused: number;
-  replayed_refused: number;
-  /** Rightly signed, by an end that had not heard this one yet; the vehicle tells none of its own. */
-  out_of_step_refused: number;
-  round_trip_s: number | null;
-  time_out_s: number | null;
-  goodput_b_s: number | null;
-  retransmit_ratio: number | null;
-  bytes_waiting: number;
-  surface_time_left_s: number | null;
-  is_signing: boolean;
-}
+export type { LinkAnswer } from '../../lib/types';
 
-export interface LinkAnswer {
-  now: number;
-  heard: boolean;
-  since: number | null;
-  last_contact: number | null;
-  transport: string;
-  is_open: boolean;
-  /** Why the vehicle is not heard. */
-  reason: string;
-  /** Why what comes is not kept. */
-  archive: string;
-  frames_waiting: number;
-  figures: Figures;
-  notes: string[];
-}
+type NotTold = 'goodput_b_s' | 'retransmit_ratio';
+/** What one end counts; the vehicle does not tell all of it. */
+export type Figures = Omit<LinkFigures, NotTold> & { [Name in NotTold]: number | null };
 
 /** The figures that a LINK_STATISTICS message of the vehicle tells of its side. */
 export function toldBy(row: FrameRow): Figures {

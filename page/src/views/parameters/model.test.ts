@@ -11,6 +11,8 @@ const row = (unit: string, low: number, high: number, value: number): ParameterR
   high: Math.fround(high),
   default: Math.fround(value),
   value: Math.fround(value),
+  since: null,
+  user: null,
 });
 
 describe('parameters in the units of people', () => {

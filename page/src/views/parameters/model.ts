@@ -1,47 +1,10 @@
 /** Parameters of a vehicle, by component, as the page shows them. */
 
-export interface ParameterRow {
-  component: number;
-  name: string;
-  words: string;
-  unit: string;
-  kind: string;
-  low: number;
-  high: number;
-  default: number;
-  value: number | null;
-}
+import type { ComponentParameters, Parameter, ParameterAnswer, ParameterWrite } from '../../lib/types';
 
-export interface ComponentRow {
-  component: number;
-  name: string;
-  state: 'known' | 'silent' | 'being_read';
-  /** Why not all of it is up to date. */
-  reason: string;
-  parameters: ParameterRow[];
-}
-
-/** A value that somebody sets, and what the vehicle said of it. */
-export interface Write {
-  ticket: number;
-  component: number;
-  name: string;
-  value: number;
-  user: string;
-  t: number;
-  state: 'waiting' | 'done' | 'refused' | 'failed';
-  words: string;
-  /** Value that holds aboard, as far as the vehicle said. */
-  holds: number | null;
-}
-
-export interface ParameterAnswer {
-  refreshing: { done: number; of: number; seconds_left: number | null } | null;
-  components: (Omit<ComponentRow, 'parameters'> & { parameters: Omit<ParameterRow, 'component'>[] })[];
-  missing: { component: number; name: string; reason: string }[];
-  notes: string[];
-  writes: Write[];
-}
+export type { ParameterAnswer, ParameterWrite as Write };
+export type ParameterRow = Parameter & { component: number };
+export type ComponentRow = Omit<ComponentParameters, 'parameters'> & { parameters: ParameterRow[] };
 
 /** The components of an answer, each parameter with its component. */
 export function componentsOf(answer: ParameterAnswer): ComponentRow[] {

@@ -81,7 +81,7 @@ class Guard:
         self._speaks_next = False
         self.peer_has_next = False
         """Whether the other end was heard with the new key, and the disk does not keep that yet."""
-        self._commit_at = float("-inf")
+        self._commit_at = self._use_at = float("-inf")
         if store is not None and storage is not None:
             self._open(store, storage)
 
@@ -151,8 +151,14 @@ class Guard:
             return
         if keys.unused:
             self.stamps.keep_now()
-            if self.stamps.written:
-                self._write(keys._replace(unused=False))
+            self._use(float("-inf"))
+
+    def _use(self, t: float) -> None:
+        """Note in the key file that the key is used, once the stamps are kept: without them it then needs proof."""
+        if self.keys is None or not self.keys.unused or self.stamps is None or not self.stamps.written:
+            return
+        if t >= self._use_at and not self._write(self.keys._replace(unused=False)):
+            self._use_at = t + _COMMIT_AGAIN
 
     def replace(self, key: Key, made: int) -> None:
         """Take a key that was given on the bench; nobody has used it.
@@ -216,7 +222,9 @@ class Guard:
         key = self.keys.current
         if self.keys.next is not None and (self._speaks_next or frame[7:10] == _confirmation()):
             key = self.keys.next
-        return signed(frame, key.secret, link, self.stamps.next(t))
+        out = signed(frame, key.secret, link, self.stamps.next(t))
+        self._use(t)
+        return out
 
     def judge(self, frame: RawFrame, t: float, *, bench: bool) -> Refusal | None:
         """Why a frame is refused; None if it is let through. Counts it."""

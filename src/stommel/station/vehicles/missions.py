@@ -8,7 +8,7 @@ from typing import Any
 from stommel.archive import Archive
 from stommel.control.orders_file import parse_orders
 from stommel.errors import StommelError
-from stommel.link.shore.shore_end import ShoreEnd
+from stommel.plans.problems import PlanError, plan_from
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask
@@ -96,23 +96,21 @@ class Missions:
         ask(line, lambda _end, _t: follower.put(Task("roll-back", user, None, valid_for_s)))
 
     def aboard(self, vehicle: int) -> dict[str, Any]:
-        """Which mission the vehicle holds, and what is on its way, as the API tells it."""
-        line, follower = self._lines[vehicle], self._followers[vehicle]
-
-        def look(_: ShoreEnd, t: float) -> tuple[Task | None, dict[str, Any] | None]:
-            task = follower.current
-            is_upload = task is not None and task.row is not None
-            return task, follower.progress(line, t)._asdict() if is_upload else None
-
-        task, progress = ask(line, look)
+        """Which mission the vehicle holds, and what is on its way, as the API tells it; waits for no line."""
+        follower = self._followers[vehicle]
+        task, progress = follower.underway
         held, missing = follower.held, follower.words or None
         row = None if held is None or not held.sha256 else self._rows.of_hash(vehicle, held.sha256.hex())
-        upload = None if task is None or task.row is None else self.told(task.row) | {"progress": progress}
+        upload = (
+            None
+            if task is None or task.row is None
+            else self.told(task.row) | {"progress": progress and progress._asdict()}
+        )
         if held is not None and not held.sha256:
             missing = "the vehicle holds no mission"
         elif held is not None and row is None:
             missing = missing or "its orders are being fetched"
-        flown = {"waypoints": [], "depth_m": None} if row is None else _flown(row)
+        flown = {"waypoints": [], "geofence": [], "depth_m": None} if row is None else _flown(row)
         return {
             "number": None if held is None else held.number, "name": None if held is None else held.name or None,
             "sha256": None if held is None else held.sha256.hex(),
@@ -156,10 +154,12 @@ class Missions:
 
 def _flown(row: MissionRow) -> dict[str, Any]:
     """What of a mission a map shows."""
+    fence = _geofence(row.plan)
     try:
         orders, _ = parse_orders(row.orders, "orders")
     except StommelError as error:
-        return {"waypoints": [], "depth_m": None, "missing": f"its orders cannot be read here: {error}"[:300]}
+        missing = f"its orders cannot be read here: {error}"[:300]
+        return {"waypoints": [], "geofence": fence, "depth_m": None, "missing": missing}
     places = [
         {
             "latitude": degrees(float(latitude)), "longitude": degrees(float(longitude)),
@@ -167,4 +167,13 @@ def _flown(row: MissionRow) -> dict[str, Any]:
         }
         for latitude, longitude in orders.waypoints
     ]  # fmt: skip
-    return {"waypoints": places, "depth_m": float(orders.dives.depth)}
+    return {"waypoints": places, "geofence": fence, "depth_m": float(orders.dives.depth)}
+
+
+def _geofence(plan: Mapping[str, Any] | None) -> Sequence[dict[str, float]]:
+    """Corners of the area that a plan may not leave; orders have none, nor has a plan that an older station kept."""
+    try:
+        corners = () if plan is None else plan_from(plan).geofence
+    except PlanError:
+        corners = ()
+    return [{"latitude": corner.latitude_deg, "longitude": corner.longitude_deg} for corner in corners]

@@ -30,6 +30,7 @@ router = APIRouter(prefix="/api", tags=["data"])
 
 MOST_POINTS = 20_000
 """Of a T-S diagram; of more every second, third ... is shown."""
+_NO_PLACE = {"latitude": None, "longitude": None}
 Sampled = Literal[
     "temperature", "conductivity", "practical_salinity", "absolute_salinity", "conservative_temperature", "density",
     "potential_density_anomaly", "sound_speed",
@@ -102,6 +103,18 @@ class Profile(BaseModel):
     """By variable, `depth` and `time` [s since 1970] among them."""
 
 
+class SectionColumn(BaseModel):
+    """A profile of a section: means of its samples."""
+
+    profile_number: int
+    profile_direction: int
+    """1 down, -1 up."""
+    time: float
+    """Mean [s since 1970]."""
+    latitude: float | None
+    longitude: float | None
+
+
 class Section(BaseModel):
     """A variable in cells of depth, a column for each profile."""
 
@@ -113,13 +126,12 @@ class Section(BaseModel):
     """Of so many profiles one is shown."""
     depth_m: list[float]
     """Middles of the cells."""
-    profiles: list[dict[str, Any]]
-    """Number, direction, mean time, place."""
+    profiles: list[SectionColumn]
     values: list[list[float | None]]
     """By profile, then depth."""
 
 
-class DensityLineModel(BaseModel):
+class DensityLine(BaseModel):
     """A line of equal potential density anomaly."""
 
     level: float
@@ -137,7 +149,7 @@ class Diagram(BaseModel):
     depth_m: list[float]
     t: list[float]
     profile: list[int]
-    lines: list[DensityLineModel]
+    lines: list[DensityLine]
 
 
 @router.get("/vehicles/{vehicle}/dives", dependencies=[InOrder])
@@ -201,7 +213,10 @@ def read_section(
         cell_m=cell_m,
         stride=stride,
         depth_m=made["depth"].values.tolist(),
-        profiles=[dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)],
+        profiles=[
+            SectionColumn.model_validate({**_NO_PLACE, **dict(zip(columns, row, strict=True))})
+            for row in zip(*columns.values(), strict=True)
+        ],
         values=[_plain(row) for row in made[variable].values],
     )
 
@@ -224,7 +239,7 @@ def read_water_masses(line: Line, records: Records, _user: Viewer, begin: Begin 
         t=t.tolist(),
         profile=profile.tolist(),
         lines=[
-            DensityLineModel(
+            DensityLine(
                 level=found.level,
                 absolute_salinity=found.absolute_salinity.tolist(),
                 conservative_temperature=found.conservative_temperature.tolist(),

@@ -37,6 +37,9 @@ _BODY = {
 }  # fmt: skip
 
 
+TransferState = Literal["going", "paused", "whole", "refused", "failed", "cancelled"]
+
+
 class FolderEntry(BaseModel):
     """What stands in a folder aboard."""
 
@@ -58,12 +61,11 @@ class Transfer(BaseModel):
     id: int
     vehicle: int
     path: str
-    direction: str
-    """download or upload."""
+    direction: Literal["download", "upload"]
     user: str | None
     t: float
-    state: str
-    """going or paused; at the end whole, refused, failed or cancelled."""
+    state: TransferState
+    """At the end whole, refused, failed or cancelled."""
     is_over: bool
     is_paused: bool
     reason: str

@@ -1,7 +1,7 @@
 """The radio link to a vehicle: how it is, and every frame as it was."""
 
 import math
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Query
 from pydantic import BaseModel
@@ -14,6 +14,10 @@ from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation
 
 router = APIRouter(prefix="/api", tags=["link"])
+
+
+FieldValue = bool | int | float | str | None | list[int | float | str | None]
+"""Of a message; null for what is no number, a text for what JSON has no number for."""
 
 
 class LinkFigures(BaseModel):
@@ -65,7 +69,7 @@ class Frame(BaseModel):
     """In the archive; later ones have greater numbers."""
     t: float
     received: float
-    direction: str
+    direction: Literal["in", "out"]
     system: int
     component: int
     message_id: int
@@ -74,7 +78,7 @@ class Frame(BaseModel):
     signed: bool
     bytes: str
     """As it was, in hexadecimal."""
-    values: dict[str, Any]
+    values: dict[str, FieldValue]
     """Fields of the message."""
 
 
@@ -132,8 +136,9 @@ def _told(stored: StoredFrame) -> Frame:
     payload = row.frame[HEAD : HEAD + row.frame[1]] if len(row.frame) >= HEAD + CHECKSUM else b""
     values = {} if kind is None else {name: _plain(value) for name, value in kind.unpack(payload).items()}
     return Frame(
-        number=stored.number, t=row.t, received=stored.received, direction=row.direction, system=row.system,
-        component=row.component, message_id=row.message_id, message=kind.name if kind else str(row.message_id),
+        number=stored.number, t=row.t, received=stored.received,
+        direction="out" if row.direction == "out" else "in", system=row.system, component=row.component,
+        message_id=row.message_id, message=kind.name if kind else str(row.message_id),
         sequence=row.sequence, signed=row.signed, bytes=row.frame.hex(), values=values,
     )  # fmt: skip
 

@@ -1,6 +1,6 @@
 """Missions of a vehicle: what it holds, what it was given by whom, and giving it another."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Path, Query
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -22,6 +22,9 @@ LEAST_VALID, MOST_VALID, USUAL = 60.0, 604_800.0, 6 * 3600.0
 Validity = Annotated[float, Field(ge=LEAST_VALID, le=MOST_VALID, allow_inf_nan=False)]
 
 
+MissionState = Literal["waiting", "sending", "aboard", "replaced", "refused", "failed", "interrupted"]
+
+
 class Mission(BaseModel):
     """A mission; times are of the vehicle's clock [s since 1970]."""
 
@@ -32,8 +35,7 @@ class Mission(BaseModel):
     """Who gave it; null: it was found aboard."""
     name: str
     sha256: str
-    state: str
-    """waiting, sending, aboard, replaced, refused, failed or interrupted."""
+    state: MissionState
     words: str
     """Why, or what was last told of it."""
 
@@ -61,6 +63,13 @@ class Waypoint(BaseModel):
     latitude: float
     longitude: float
     radius_m: float
+
+
+class Corner(BaseModel):
+    """A corner of a geofence [deg]."""
+
+    latitude: float
+    longitude: float
 
 
 class UploadProgress(BaseModel):
@@ -91,6 +100,8 @@ class MissionAboard(BaseModel):
     missing: str | None
     """Why something is not known, or what the last request came to."""
     waypoints: list[Waypoint]
+    geofence: list[Corner]
+    """Of the plan out of which the orders were made; empty where there is none."""
     depth_m: float | None
     mission: Mission | None
     """Of these orders, where the station has them."""

@@ -66,7 +66,7 @@ class Station:
             self.previews = Previews()
             self._held.callback(self.previews.close)
             self.people = People(self.archive, told=self._holder_changed)
-            self.replays = Replays(self.archive, self.hub)
+            self.replays = Replays(self.archive, self.hub, self.vehicles)
             self._held.callback(self.replays.stop)
             self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
             self.commands = Commands(self.archive, self.hub, self.vehicles)

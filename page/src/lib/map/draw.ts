@@ -3,7 +3,7 @@
 import { geoPath, type GeoProjection } from 'd3-geo';
 import { token } from '../theme.svelte';
 import { landWithin, type LandPart } from './land';
-import type { MapArrow, MapLayer, MapTrack, Place } from './types';
+import type { MapArrow, MapLayer, MapMark, MapTrack, Place } from './types';
 import { graticuleLabel, graticuleStep, pixelsPerMetre, placeAt, projection, wrapped, type MapView, type Size } from './view';
 
 export interface Scene {
@@ -12,6 +12,9 @@ export interface Scene {
   images: ReadonlyMap<string, HTMLImageElement>;
   tracks: readonly MapTrack[];
   fence: readonly Place[];
+  /** Whether the fence is still being drawn: its last side is not there yet. */
+  fenceOpen: boolean;
+  marks: readonly MapMark[];
   arrows: readonly MapArrow[];
   circles: readonly (Place & { radius_m: number; kind: 'waypoint' | 'uncertainty' })[];
 }
@@ -30,10 +33,11 @@ export function draw(context: Context, view: MapView, size: Size, scene: Scene):
   drawLand(context, project, view, size, scene.land);
   for (const layer of scene.layers) drawLayer(context, project, layer, scene.images);
   drawGraticule(context, project, view, size);
-  drawFence(context, project, scene.fence);
+  drawFence(context, project, scene.fence, scene.fenceOpen);
   for (const circle of scene.circles) drawCircle(context, project, view, circle);
   for (const track of scene.tracks) drawTrack(context, project, track);
   drawArrows(context, project, scene.arrows);
+  for (const mark of scene.marks) drawMark(context, project, mark);
 }
 
 function bounds(view: MapView, size: Size): [number, number, number, number] {
@@ -110,15 +114,49 @@ function drawGraticule(context: Context, project: GeoProjection, view: MapView, 
   for (const [value, y] of rows) if (y > 30) label(graticuleLabel(value, step, ['N', 'S']), 4, y - 3);
 }
 
-function drawFence(context: Context, project: GeoProjection, fence: readonly Place[]): void {
-  if (fence.length < 3) return;
-  context.beginPath();
-  line(context, project, [...fence, fence[0] as Place]);
+function drawFence(context: Context, project: GeoProjection, fence: readonly Place[], open: boolean): void {
+  const [first, last] = [fence[0], fence.at(-1)];
+  if (!first || !last || fence.length < 2) return;
+  const isArea = fence.length > 2;
   context.strokeStyle = token('warning');
-  context.lineWidth = 1.5;
-  context.setLineDash([2, 4]);
+  if (isArea) {
+    context.beginPath();
+    line(context, project, [...fence, first]);
+    context.fillStyle = token('warning');
+    context.globalAlpha = 0.05;
+    context.fill();
+    context.globalAlpha = 1;
+  }
+  context.beginPath();
+  line(context, project, open || !isArea ? fence : [...fence, first]);
+  context.lineWidth = 1.75;
+  context.setLineDash(open ? [] : [7, 3, 1.5, 3]);
   context.stroke();
+  if (open && isArea) {
+    context.beginPath();
+    line(context, project, [last, first]);
+    context.lineWidth = 1;
+    context.setLineDash([2, 5]);
+    context.stroke();
+  }
   context.setLineDash([]);
+}
+
+/** A place that is only shown: a small disc with its label beside it. */
+function drawMark(context: Context, project: GeoProjection, mark: MapMark): void {
+  const at = project([mark.longitude, mark.latitude]);
+  if (!at) return;
+  const colour = token(mark.kind === 'warning' ? 'warning' : 'ink-2');
+  context.beginPath();
+  context.arc(at[0], at[1], mark.kind === 'warning' ? 5 : 3.5, 0, 2 * Math.PI);
+  context.fillStyle = colour;
+  context.fill();
+  context.font = `600 11px ${getComputedStyle(document.body).fontFamily}`;
+  context.textAlign = 'left';
+  context.lineWidth = 3;
+  context.strokeStyle = token('sea');
+  context.strokeText(mark.label, at[0] + 8, at[1] + 4);
+  context.fillText(mark.label, at[0] + 8, at[1] + 4);
 }
 
 function line(context: Context, project: GeoProjection, places: readonly Place[]): void {

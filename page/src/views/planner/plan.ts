@@ -25,7 +25,11 @@ export interface PlanProblem {
   allowed: string;
 }
 
-export const MOST_WAYPOINTS = 200;
+/** The lists of places of a plan. */
+export type PlaceList = 'waypoints' | 'geofence';
+
+/** Waypoints, or corners of the geofence, at most. */
+export const MOST_PLACES = 200;
 
 /** Whether a value has what the page needs to show it as a plan; the rest, the station checks. */
 export function isPlan(value: unknown): value is Plan {
@@ -73,15 +77,16 @@ export function withPlace(plan: Plan, key: string, place: PlanPlace): Plan {
   return list === 'geofence' ? { ...plan, geofence: moved } : { ...plan, waypoints: moved };
 }
 
-/** The plan with one waypoint more, before the one of that number. */
-export function inserted(plan: Plan, number: number, place: PlanPlace): Plan {
-  if (plan.waypoints.length >= MOST_WAYPOINTS) return plan;
-  return { ...plan, waypoints: plan.waypoints.toSpliced(number, 0, place) };
+/** The plan with one waypoint (or corner) more, before the one of that number. */
+export function inserted(plan: Plan, number: number, place: PlanPlace, list: PlaceList = 'waypoints'): Plan {
+  const places = plan[list] ?? [];
+  if (places.length >= MOST_PLACES) return plan;
+  return { ...plan, [list]: places.toSpliced(number, 0, place) };
 }
 
-/** The plan without a waypoint. */
-export function without(plan: Plan, number: number): Plan {
-  return { ...plan, waypoints: plan.waypoints.filter((_, index) => index !== number) };
+/** The plan without a waypoint (or corner). */
+export function without(plan: Plan, number: number, list: PlaceList = 'waypoints'): Plan {
+  return { ...plan, [list]: (plan[list] ?? []).filter((_, index) => index !== number) };
 }
 
 /** The plan with a waypoint at another number of the order. */

@@ -112,13 +112,24 @@ class Missions:
             missing = "the vehicle holds no mission"
         elif held is not None and row is None:
             missing = missing or "its orders are being fetched"
-        flown = {"waypoints": [], "depth_m": None} if row is None else _flown(row)
+        flown = {"waypoints": [], "fence": [], "depth_m": None} if row is None else _flown(row)
         return {
             "number": None if held is None else held.number, "name": None if held is None else held.name or None,
             "sha256": None if held is None else held.sha256.hex(),
             "previous_sha256": None if held is None else held.previous.hex(),
             "t": None if held is None else follower.held_at,
             "missing": missing, "waiting": follower.waiting, "upload": upload,
+            "mission": None if row is None else self.told(row), **flown,
+        }  # fmt: skip
+
+    def held_at(self, vehicle: int, t: float) -> dict[str, Any]:
+        """Which mission the vehicle held at a time [s since 1970], as the API tells it."""
+        row = self._rows.held_at(vehicle, t)
+        flown = {"waypoints": [], "fence": [], "depth_m": None} if row is None else _flown(row)
+        return {
+            "number": None, "name": None if row is None else row.name, "sha256": None if row is None else row.sha256,
+            "previous_sha256": None, "t": t, "waiting": 0, "upload": None,
+            "missing": "it is not known which mission the vehicle held then" if row is None else None,
             "mission": None if row is None else self.told(row), **flown,
         }  # fmt: skip
 
@@ -156,10 +167,19 @@ class Missions:
 
 def _flown(row: MissionRow) -> dict[str, Any]:
     """What of a mission a map shows."""
+    fence = [
+        {"latitude": corner["latitude_deg"], "longitude": corner["longitude_deg"]}
+        for corner in (row.plan or {}).get("geofence", ())
+    ]
     try:
         orders, _ = parse_orders(row.orders, "orders")
     except StommelError as error:
-        return {"waypoints": [], "depth_m": None, "missing": f"its orders cannot be read here: {error}"[:300]}
+        return {
+            "waypoints": [],
+            "fence": fence,
+            "depth_m": None,
+            "missing": f"its orders cannot be read here: {error}"[:300],
+        }
     places = [
         {
             "latitude": degrees(float(latitude)), "longitude": degrees(float(longitude)),
@@ -167,4 +187,4 @@ def _flown(row: MissionRow) -> dict[str, Any]:
         }
         for latitude, longitude in orders.waypoints
     ]  # fmt: skip
-    return {"waypoints": places, "depth_m": float(orders.dives.depth)}
+    return {"waypoints": places, "fence": fence, "depth_m": float(orders.dives.depth)}

@@ -5,6 +5,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Path, Query
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from stommel.archive.times import GREATEST_TIME
 from stommel.plans.flown import current_of_last_dive
 from stommel.plans.plan import StationPlan
 from stommel.plans.problems import plan_from
@@ -20,6 +21,10 @@ router = APIRouter(prefix="/api", tags=["missions"])
 MOST_ORDERS = 1_000_000
 LEAST_VALID, MOST_VALID, USUAL = 60.0, 604_800.0, 6 * 3600.0
 Validity = Annotated[float, Field(ge=LEAST_VALID, le=MOST_VALID, allow_inf_nan=False)]
+
+Past = Annotated[
+    float | None, Query(ge=0.0, le=GREATEST_TIME, allow_inf_nan=False, description="Seconds since 1970.")
+]  # fmt: skip
 
 
 class Mission(BaseModel):
@@ -63,6 +68,13 @@ class Waypoint(BaseModel):
     radius_m: float
 
 
+class Corner(BaseModel):
+    """A corner of an area [deg]."""
+
+    latitude: float
+    longitude: float
+
+
 class UploadProgress(BaseModel):
     """Bytes."""
 
@@ -91,6 +103,8 @@ class MissionAboard(BaseModel):
     missing: str | None
     """Why something is not known, or what the last request came to."""
     waypoints: list[Waypoint]
+    fence: list[Corner]
+    """Corners of the area that its plan may not leave; none where the plan has none, or is not known."""
     depth_m: float | None
     mission: Mission | None
     """Of these orders, where the station has them."""
@@ -146,8 +160,10 @@ def show_mission(
 
 
 @router.get("/vehicles/{vehicle}/mission")
-def show_mission_aboard(_user: Viewer, line: Line, station: TheStation) -> MissionAboard:
-    """Return which mission the vehicle holds, and what is on its way to it."""
+def show_mission_aboard(_user: Viewer, line: Line, station: TheStation, at: Past = None) -> MissionAboard:
+    """Return which mission the vehicle holds, and what is on its way to it; or which one it held at a time."""
+    if at is not None:
+        return MissionAboard.model_validate(station.missions.held_at(line.vehicle, at))
     return MissionAboard.model_validate(station.missions.aboard(line.vehicle))
 
 

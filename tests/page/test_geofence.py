@@ -182,7 +182,9 @@ def test_corners_are_typed_and_a_wrong_one_stays_with_its_row(view: Any) -> None
 
 def test_it_may_lie_across_the_date_line_but_not_around_the_earth(view: Any, tmp_path: Any, screenshot: Any) -> None:
     """Oracle: the plan of the desk, moved to the date line."""
-    places = [{"latitude_deg": 10.0 + 0.02 * k, "longitude_deg": lon} for k, lon in enumerate((179.98, -179.99, 179.99))]
+    places = [
+        {"latitude_deg": 10.0 + 0.02 * k, "longitude_deg": lon} for k, lon in enumerate((179.98, -179.99, 179.99))
+    ]
     other = {key: value for key, value in plan(view).items() if key != "neutral_density_kg_m3"}
     path = tmp_path / "line.json"
     path.write_text(json.dumps({**other, "start": places[0], "waypoints": places[1:], "water": {"ocean": "uniform"}}))

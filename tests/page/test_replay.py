@@ -2,12 +2,14 @@
 
 import math
 import re
+import time
+from collections.abc import Callable
 from typing import Any
 
 import httpx
 import pytest
 
-from tests.page.past import Past
+from tests.page.past import GAP, Past, values
 
 pytestmark = pytest.mark.timeout(180)
 
@@ -27,8 +29,22 @@ def begun(page: Any, past: Past, speed: str = "60") -> Any:
     expect(page.get_by_role("textbox", name="From")).not_to_have_value("")
     page.get_by_role("spinbutton", name="Speed").fill(speed)
     page.get_by_role("button", name="Start the replay").click()
-    page.locator("[data-panel] canvas").first.wait_for()
+    page.locator(".tile .value").first.wait_for()
     return page
+
+
+def plots(page: Any) -> None:
+    """The plots of a replay."""
+    page.get_by_role("tab", name="Motion").click()
+    page.locator("[data-panel] canvas").first.wait_for()
+
+
+def until(page: Any, done: Callable[[], object], within: float = 60.0) -> None:
+    """Wait until something is so."""
+    ends = time.monotonic() + within
+    while not done():
+        assert time.monotonic() < ends, "waited in vain"
+        page.wait_for_timeout(100)
 
 
 def states(past: Past) -> list[dict[str, Any]]:
@@ -51,18 +67,19 @@ def depth_at(past: Past, t: float) -> float:
 
 def test_a_replay_shows_what_the_archive_has_of_that_time(page: Any, past: Past, screenshot: Any) -> None:
     begun(page, past, "600")
-    page.wait_for_timeout(2500)
+    until(page, lambda: states(past)[0]["at"] > past.begin + 1200.0)
     screenshot("replay")
     page.get_by_role("button", name="Pause").click()
     page.get_by_role("button", name="Go on").wait_for()
-    page.wait_for_timeout(1200)
     (state,) = states(past)
     assert state["paused"]
     assert past.begin < state["at"] < past.begin + 7200
-    assert depth_told(page) == pytest.approx(depth_at(past, state["at"]), abs=0.2)
-    still = states(past)[0]["at"]
+    until(page, lambda: abs(depth_told(page) - depth_at(past, state["at"])) < 0.2)
     page.wait_for_timeout(700)
-    assert states(past)[0]["at"] == still, "while it is paused its time stands still"
+    assert states(past)[0]["at"] == state["at"], "while it is paused its time stands still"
+    plots(page)
+    page.wait_for_function("document.querySelector('[data-panel=path]').drawn?.data[1].some((value) => value !== null)")
+    screenshot("replay-plots")
     drawn = page.evaluate("document.querySelector('[data-panel=path]').drawn")
     t = [at for at, value in zip(*drawn["data"], strict=False) if value is not None]
     assert max(t) <= state["at"] + 1e-3, "nothing is shown that had not happened yet"
@@ -77,21 +94,21 @@ def test_a_replay_jumps_and_changes_its_speed(page: Any, past: Past) -> None:
         input.dispatchEvent(new Event('input', {{ bubbles: true }}));
         input.dispatchEvent(new Event('change', {{ bubbles: true }}));
     }}""")
-    page.wait_for_timeout(1500)
+    until(page, lambda: states(past)[0]["at"] >= past.begin + 3600)
     at = states(past)[0]["at"]
-    assert past.begin + 3600 <= at <= past.begin + 3660
-    assert depth_told(page) == pytest.approx(depth_at(past, at), abs=2.0)
+    assert at <= past.begin + 3660
+    until(page, lambda: abs(depth_told(page) - depth_at(past, states(past)[0]["at"])) < 2.0)
     page.get_by_role("combobox", name="Speed").select_option("200")
-    page.wait_for_timeout(1500)
+    until(page, lambda: states(past)[0]["at"] > at + 100.0)
     assert states(past)[0]["speed"] == 200.0
-    assert states(past)[0]["at"] > at + 100.0
 
 
 def test_the_end_is_reached_and_begun_again(page: Any, past: Past) -> None:
     begun(page, past, "1000")
     again = page.get_by_role("button", name="From the beginning")
     again.wait_for(timeout=30_000)
-    assert states(past)[0]["at"] == math.floor(past.begin) + 7200
+    page.get_by_text("This is the end of the replay").wait_for()
+    until(page, lambda: states(past)[0]["at"] == math.floor(past.begin) + 7200)
     again.click()
     page.get_by_role("button", name="Pause").wait_for()
     assert states(past)[0]["at"] < past.begin + 7000
@@ -120,8 +137,7 @@ def test_leaving_the_view_ends_the_replay(page: Any, past: Past) -> None:
     assert len(states(past)) == 1
     page.goto(f"{past.address}/#/vehicle/1/log")
     page.get_by_role("textbox", name="Note").wait_for()
-    page.wait_for_timeout(1000)
-    assert states(past) == []
+    until(page, lambda: states(past) == [])
 
 
 def test_a_stretch_that_cannot_be_is_refused(page: Any, past: Past) -> None:
@@ -143,3 +159,68 @@ def test_nobody_is_kept_from_replays(page: Any, past: Past, serious: Any, screen
     begun(page, past).wait_for_timeout(1500)
     screenshot("replay-tablet-dark")
     assert serious() == []
+    plots(page)
+    assert serious() == []
+
+
+def test_the_whole_vehicle_is_shown_as_it_was_and_is_marked_as_the_past(page: Any, past: Past) -> None:
+    """Issue: live or any time in the past. Oracle: the closed form by which the past was made, and its first hours."""
+    begun(page, past, "1")
+    banner = page.get_by_role("toolbar", name="Replay")
+    banner.get_by_text("Past", exact=True).wait_for()
+    banner.get_by_text("no command goes out from here").wait_for()
+    (state,) = states(past)
+    assert state["summary"]["position"]["latitude"] == pytest.approx(values("latitude_deg", state["at"]), abs=1e-3)
+    for name in ("At a glance", "Values", "Map", "Attitude", "Inside", "State"):
+        page.get_by_role("region", name=name, exact=True).wait_for()
+    page.get_by_role("img", name=re.compile("^Phase of the dive: (descent|ascent)")).wait_for()
+    page.get_by_role("application", name=re.compile("^The glider: pitch ")).wait_for()
+    said = page.get_by_role("application", name=re.compile("^The glider")).get_attribute("aria-label")
+    pitch = float(re.search(r"pitch ([\d\u2212.]+)", said).group(1).replace("\u2212", "-"))
+    assert pitch == pytest.approx(values("pitch_deg", states(past)[0]["at"]), abs=3.0)
+    assert page.locator("main a").count() == 0, "no way out of the past but its end"
+    assert page.locator("main").get_by_role("button", name=re.compile("Abort|Send|Dive")).count() == 0
+
+
+def test_a_silence_is_told_and_jumped_over(page: Any, past: Past, screenshot: Any) -> None:
+    """Oracle: the half hour in which nothing was received."""
+    gap = [past.begin + hours * 3600.0 for hours in GAP]
+    page.goto(f"{past.address}/#/vehicle/1/replay?begin={gap[0] - 60:.0f}&end={gap[1] + 600:.0f}")
+    page.get_by_role("spinbutton", name="Speed").fill("200")
+    page.get_by_role("button", name="Start the replay").click()
+    page.get_by_text("Nothing was received from").wait_for()
+    screenshot("replay-silence")
+    page.get_by_role("combobox", name="Speed").select_option("5")
+    assert states(past)[0]["silence"]["end"] == pytest.approx(gap[1], abs=2.5)
+    page.get_by_role("button", name="Jump over it").click()
+    until(page, lambda: states(past)[0]["at"] > gap[1])
+    page.get_by_text("Nothing was received from").wait_for(state="detached")
+    page.get_by_label("Place in the replay").focus()
+    page.keyboard.press("Home")
+    page.get_by_label("Jump over silence").check()
+    page.get_by_role("combobox", name="Speed").select_option("200")
+    until(page, lambda: states(past)[0]["at"] > gap[1])
+
+
+def test_a_stretch_with_nothing_in_it_is_refused_with_what_is_around_it(page: Any, past: Past) -> None:
+    begin = past.begin + GAP[0] * 3600.0 + 300.0
+    page.goto(f"{past.address}/#/vehicle/1/replay?begin={begin:.0f}&end={begin + 300:.0f}")
+    page.get_by_role("button", name="Start the replay").click()
+    page.get_by_role("alert").get_by_text("nothing was received of vehicle 1 in this stretch of time").wait_for()
+    page.get_by_role("alert").get_by_text("the next at").wait_for()
+
+
+def test_two_tabs_have_replays_of_their_own(page: Any, past: Past) -> None:
+    begun(page, past, "1")
+    other = page.context.new_page()
+    other.goto(f"{past.address}/#/vehicle/1/replay?begin={past.begin + 7200:.0f}&end={past.begin + 10_800:.0f}")
+    other.get_by_role("button", name="Start the replay").click()
+    other.locator(".tile .value").first.wait_for()
+    until(page, lambda: len(states(past)) == 2)
+    times = [tab.get_by_label("Time of the replay").inner_text() for tab in (page, other)]
+    assert times[0] != times[1]
+    other.get_by_role("button", name="End the replay").click()
+    until(page, lambda: len(states(past)) == 1)
+    before = states(past)[0]["at"]
+    until(page, lambda: states(past)[0]["at"] > before)
+    other.close()

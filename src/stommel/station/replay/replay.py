@@ -19,7 +19,7 @@ TICK = 0.1
 """Between two looks [s]."""
 MOST_WAITING = 20_000
 """Samples that may wait for the slowest listener; while there are more, the replay stands still."""
-TELL_EVERY = 1.0
+TELL_EVERY = 0.5
 """How far it has come is told as often [s]."""
 LEAD = 1.0
 """So long before the next sample a silence is left [s]."""

@@ -32,12 +32,26 @@ export function draw(context: Context, view: MapView, size: Size, scene: Scene):
   context.lineJoin = 'round';
   drawLand(context, project, view, size, scene.land);
   for (const layer of scene.layers) drawLayer(context, project, layer, scene.images);
-  drawGraticule(context, project, view, size);
+  const labels = drawGraticule(context, project, view, size);
   drawFence(context, project, scene.fence, scene.fenceOpen);
   for (const circle of scene.circles) drawCircle(context, project, view, circle);
   for (const track of scene.tracks) drawTrack(context, project, track);
   drawArrows(context, project, scene.arrows);
   for (const mark of scene.marks) drawMark(context, project, mark);
+  context.fillStyle = token('ink-2');
+  context.font = `11px ${getComputedStyle(document.body).fontFamily}`;
+  context.textAlign = 'left';
+  for (const label of labels) haloed(context, ...label);
+}
+
+type Label = [words: string, x: number, y: number];
+
+/** Words that can be read on whatever lies below. */
+function haloed(context: Context, words: string, x: number, y: number): void {
+  context.lineWidth = 3;
+  context.strokeStyle = token('sea');
+  context.strokeText(words, x, y);
+  context.fillText(words, x, y);
 }
 
 function bounds(view: MapView, size: Size): [number, number, number, number] {
@@ -83,14 +97,11 @@ function drawImage(context: Context, project: GeoProjection, image: HTMLImageEle
   }
 }
 
-function drawGraticule(context: Context, project: GeoProjection, view: MapView, size: Size): void {
+function drawGraticule(context: Context, project: GeoProjection, view: MapView, size: Size): Label[] {
   const [west, east, south, north] = bounds(view, size);
   const step = graticuleStep(view);
   context.strokeStyle = token('ink');
-  context.fillStyle = token('ink-2');
-  context.font = `11px ${getComputedStyle(document.body).fontFamily}`;
   context.lineWidth = 1;
-  const label = (words: string, x: number, y: number): void => context.fillText(words, x, y);
   context.globalAlpha = 0.13;
   context.beginPath();
   const columns: [number, number][] = [];
@@ -109,9 +120,10 @@ function drawGraticule(context: Context, project: GeoProjection, view: MapView, 
   }
   context.stroke();
   context.globalAlpha = 1;
-  context.textAlign = 'left';
-  for (const [value, x] of columns) if (x > 60) label(graticuleLabel(value, step, ['E', 'W']), x + 3, 12);
-  for (const [value, y] of rows) if (y > 30) label(graticuleLabel(value, step, ['N', 'S']), 4, y - 3);
+  return [
+    ...columns.filter(([, x]) => x > 60).map(([value, x]): Label => [graticuleLabel(value, step, ['E', 'W']), x + 3, 12]),
+    ...rows.filter(([, y]) => y > 30).map(([value, y]): Label => [graticuleLabel(value, step, ['N', 'S']), 4, y - 3]),
+  ];
 }
 
 function drawFence(context: Context, project: GeoProjection, fence: readonly Place[], open: boolean): void {
@@ -123,7 +135,7 @@ function drawFence(context: Context, project: GeoProjection, fence: readonly Pla
     context.beginPath();
     line(context, project, [...fence, first]);
     context.fillStyle = token('warning');
-    context.globalAlpha = 0.05;
+    context.globalAlpha = 0.04;
     context.fill();
     context.globalAlpha = 1;
   }
@@ -153,10 +165,7 @@ function drawMark(context: Context, project: GeoProjection, mark: MapMark): void
   context.fill();
   context.font = `600 11px ${getComputedStyle(document.body).fontFamily}`;
   context.textAlign = 'left';
-  context.lineWidth = 3;
-  context.strokeStyle = token('sea');
-  context.strokeText(mark.label, at[0] + 8, at[1] + 4);
-  context.fillText(mark.label, at[0] + 8, at[1] + 4);
+  haloed(context, mark.label, at[0] + 8, at[1] + 4);
 }
 
 function line(context: Context, project: GeoProjection, places: readonly Place[]): void {
@@ -185,13 +194,22 @@ function drawCircle(context: Context, project: GeoProjection, view: MapView, cir
   context.globalAlpha = 1;
 }
 
+/** Colour, width and dashes of each kind of track. */
+const TRACKS: Record<MapTrack['kind'], [string, number, number[]]> = {
+  flown: ['track', 2, []],
+  planned: ['ink-3', 1.25, [6, 4]],
+  predicted: ['series-2', 2, [2, 3]],
+  aboard: ['series-3', 1.5, [10, 4]],
+};
+
 function drawTrack(context: Context, project: GeoProjection, track: MapTrack): void {
   if (track.places.length < 2) return;
   context.beginPath();
   line(context, project, track.places);
-  context.strokeStyle = token(track.kind === 'flown' ? 'track' : track.kind === 'planned' ? 'ink-3' : 'series-2');
-  context.lineWidth = track.kind === 'planned' ? 1.25 : 2;
-  context.setLineDash(track.kind === 'planned' ? [6, 4] : track.kind === 'predicted' ? [2, 3] : []);
+  const [colour, width, dash] = TRACKS[track.kind];
+  context.strokeStyle = token(colour);
+  context.lineWidth = width;
+  context.setLineDash(dash);
   context.stroke();
   context.setLineDash([]);
 }

@@ -17,7 +17,7 @@ export interface MapVehicle extends Place {
 export interface MapTrack {
   id: string;
   places: readonly Place[];
-  kind: 'flown' | 'planned' | 'predicted';
+  kind: 'flown' | 'planned' | 'predicted' | 'aboard';
   words?: string;
 }
 

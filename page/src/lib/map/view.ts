@@ -82,6 +82,16 @@ export function fitted(places: readonly Place[], size: Size, least_m = 4000, pad
   return kept({ latitude, longitude: first.longitude + (west + right) / 2 / RADIANS, scale });
 }
 
+/** Places as far from one as a radius, so that a map that shows them shows its circle. */
+export function around(place: Place, radius_m: number): Place[] {
+  const north = radius_m / EARTH_M / RADIANS;
+  const east = north / Math.max(0.05, Math.cos(place.latitude * RADIANS));
+  return [
+    { latitude: place.latitude - north, longitude: wrapped(place.longitude - east) },
+    { latitude: place.latitude + north, longitude: wrapped(place.longitude + east) },
+  ];
+}
+
 export function pixelsPerMetre(view: MapView, latitude = view.latitude): number {
   return view.scale / EARTH_M / Math.cos(latitude * RADIANS);
 }

@@ -127,9 +127,30 @@ export function differences(here: Plan, there: Plan, sections: PlanSection[]): D
   const one = { ...usual, ...flat(here) };
   const other = { ...usual, ...flat(there) };
   const keys = [...new Set([...Object.keys(one), ...Object.keys(other)])];
-  return keys
+  const told = flat(here);
+  const rows = keys
+    .filter((key) => !key.startsWith('geofence.'))
     .map((key) => ({ key, here: one[key] ?? '', there: other[key] ?? '' }))
-    .filter((row) => row.here !== row.there && !(FILLED_IN.has(row.key) && flat(here)[row.key] === undefined));
+    .filter((row) => !isSame(row.here, row.there) && !(FILLED_IN.has(row.key) && told[row.key] === undefined));
+  return [...rows, ...fences(here.geofence ?? [], there.geofence ?? [])];
+}
+
+/** Orders hold numbers in few bits: what differs by less was told as the same. */
+const ROUNDING = 2e-3;
+
+function isSame(here: string, there: string): boolean {
+  if (here === there) return true;
+  const [one, other] = [Number(here), Number(there)];
+  if (here === '' || there === '' || !Number.isFinite(one) || !Number.isFinite(other)) return false;
+  return Math.abs(one - other) <= ROUNDING * Math.max(Math.abs(one), Math.abs(other));
+}
+
+/** One row for a geofence that is another one. */
+function fences(here: PlanPlace[], there: PlanPlace[]): Difference[] {
+  if (JSON.stringify(here) === JSON.stringify(there)) return [];
+  const words = (corners: PlanPlace[]): string => (corners.length ? `${corners.length} corners` : '');
+  const isLike = here.length === there.length;
+  return [{ key: 'geofence', here: words(here) + (isLike ? ', elsewhere' : ''), there: words(there) }];
 }
 
 function flat(value: unknown, before = '', found: Record<string, string> = {}): Record<string, string> {

@@ -78,7 +78,8 @@ def test_a_replay_shows_what_the_archive_has_of_that_time(page: Any, past: Past,
     page.wait_for_timeout(700)
     assert states(past)[0]["at"] == state["at"], "while it is paused its time stands still"
     plots(page)
-    page.wait_for_function("document.querySelector('[data-panel=path]').drawn?.data[1].some((value) => value !== null)")
+    some = "document.querySelector('[data-panel=path]').drawn?.data[1].some((value) => value !== null)"
+    until(page, lambda: page.evaluate(some))
     screenshot("replay-plots")
     drawn = page.evaluate("document.querySelector('[data-panel=path]').drawn")
     t = [at for at, value in zip(*drawn["data"], strict=False) if value is not None]

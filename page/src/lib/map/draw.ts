@@ -99,7 +99,7 @@ function drawImage(context: Context, project: GeoProjection, image: HTMLImageEle
 
 function drawGraticule(context: Context, project: GeoProjection, view: MapView, size: Size): Label[] {
   const [west, east, south, north] = bounds(view, size);
-  const step = graticuleStep(view);
+  const [step, rowStep] = [graticuleStep(view), graticuleStep(view, 130, true)];
   context.strokeStyle = token('ink');
   context.lineWidth = 1;
   context.globalAlpha = 0.13;
@@ -112,9 +112,9 @@ function drawGraticule(context: Context, project: GeoProjection, view: MapView, 
     context.moveTo(x, 0);
     context.lineTo(x, size.height);
   }
-  for (let i = Math.ceil(south / step); i * step <= north; i += 1) {
-    const y = Math.round(project([view.longitude, i * step])?.[1] ?? 0) + 0.5;
-    rows.push([i * step, y]);
+  for (let i = Math.ceil(south / rowStep); i * rowStep <= north; i += 1) {
+    const y = Math.round(project([view.longitude, i * rowStep])?.[1] ?? 0) + 0.5;
+    rows.push([i * rowStep, y]);
     context.moveTo(0, y);
     context.lineTo(size.width, y);
   }
@@ -122,7 +122,7 @@ function drawGraticule(context: Context, project: GeoProjection, view: MapView, 
   context.globalAlpha = 1;
   return [
     ...columns.filter(([, x]) => x > 60).map(([value, x]): Label => [graticuleLabel(value, step, ['E', 'W']), x + 3, 12]),
-    ...rows.filter(([, y]) => y > 30).map(([value, y]): Label => [graticuleLabel(value, step, ['N', 'S']), 4, y - 3]),
+    ...rows.filter(([, y]) => y > 30).map(([value, y]): Label => [graticuleLabel(value, rowStep, ['N', 'S']), 4, y - 3]),
   ];
 }
 

@@ -141,7 +141,8 @@ def test_it_is_drawn_by_finger_on_a_tablet(view: Any, screenshot: Any) -> None:
     view.get_by_role("button", name="Undo").click()
     assert fence(view)[2][0] < moved[2][0]
     assert fence(view)[2][1] > moved[2][1]
-    view.touchscreen.tap(box["x"] + 2, box["y"] - 40)
+    view.get_by_role("button", name="Close the area").first.tap()
+    view.get_by_text("Drag a corner").wait_for()
     screenshot("planner-fence-tablet")
 
 

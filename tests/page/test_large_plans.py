@@ -106,6 +106,7 @@ def test_a_plan_near_a_pole_is_where_it_is_and_fits_its_fence(
     leg = view.locator("[data-place='waypoints.0'] .leg").inner_text()
     assert leg.split()[0].startswith("1.1")
     assert ("180" if south else "000") in leg
+    view.get_by_role("group", name="What the map changes").get_by_role("button", name="Geofence").click()
     view.get_by_role("button", name="Around the plan").click()
     view.locator("[data-problems='0']", has_text="Can be flown").wait_for(timeout=60_000)
     assert "All 2 waypoints reached" in preview(view)

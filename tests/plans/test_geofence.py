@@ -1,7 +1,7 @@
 """The geofence. Oracle: matplotlib's test of points in polygons on pyproj's Mercator map, areas seen by eye."""
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.path import Path
 from pyproj import Proj
@@ -17,6 +17,8 @@ BAY = [Place(0.0, 0.0), Place(10.0, 0.0), Place(10.0, 10.0), Place(0.0, 10.0), P
        Place(8.0, 4.0), Place(0.0, 4.0)]  # fmt: skip
 """A square with a slot from the south."""
 
+CHART = Proj(proj="merc", R=1.0)
+"""Longitude and latitude on Mercator's map."""
 DEGREES = st.floats(-5.0, 15.0).map(lambda value: round(value, 2) + 0.001)
 
 
@@ -28,6 +30,7 @@ def star(angles: list[float], radii: list[float]) -> list[Place]:
     ]
 
 
+@settings(deadline=None)  # on a busy machine the first example waits for its libraries
 @given(
     st.lists(st.floats(0.0, 6.28), min_size=3, max_size=12, unique_by=lambda angle: round(angle, 2)),
     st.lists(st.floats(1.0, 9.0), min_size=12, max_size=12),
@@ -38,10 +41,9 @@ def test_a_place_is_inside_where_another_library_says_so(
     angles: list[float], radii: list[float], latitude: float, longitude: float
 ) -> None:
     corners = star(angles, radii)
-    chart = Proj(proj="merc", R=1.0)
-    points = [chart(corner.longitude_deg, corner.latitude_deg) for corner in corners]
+    points = [CHART(corner.longitude_deg, corner.latitude_deg) for corner in corners]
     outline = Path([*points, points[0]], closed=True)
-    at = chart(longitude, latitude)
+    at = CHART(longitude, latitude)
     sure = outline.contains_point(at, radius=1e-8) == outline.contains_point(at, radius=-1e-8)
     if sure:
         assert Geofence(corners).holds(Place(latitude, longitude)) == outline.contains_point(at)
@@ -66,10 +68,9 @@ def test_it_may_lie_across_the_date_line() -> None:
 
 def test_its_sides_are_those_that_the_vehicle_steers_also_far_north() -> None:
     """Oracle: from 70 to 80 deg a line of one bearing is at 75.84 deg half-way in longitude."""
-    chart = Proj(proj="merc", R=1.0)
-    _, north = chart(0.0, 80.0)
-    _, south = chart(0.0, 70.0)
-    _, middle = chart(0.0, (north + south) / 2.0, inverse=True)
+    _, north = CHART(0.0, 80.0)
+    _, south = CHART(0.0, 70.0)
+    _, middle = CHART(0.0, (north + south) / 2.0, inverse=True)
     fence = Geofence([Place(70.0, 10.0), Place(80.0, 30.0), Place(70.0, 30.0)])
     assert fence.holds(Place(middle - 0.01, 20.0))
     assert not fence.holds(Place(middle + 0.01, 20.0))

@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 PAGE := src/stommel/station/built/index.html
 PAGE_SOURCES := $(shell find page -name node_modules -prune -o -type f -print)
 
-.PHONY: help setup page run test check format bench docs dist clean
+.PHONY: help setup page types run test check format bench docs dist clean
 
 help:
 	@echo "make run     design the paper's glider, launch it in a simulated sea, and serve the page that commands it"
@@ -17,6 +17,7 @@ help:
 	@echo "make docs    the documentation site, build/docs/index.html"
 	@echo "make dist    a release: sdist and wheel in dist/, tried in an environment of its own"
 	@echo "make page    the page of the shore station, from page/ into the package"
+	@echo "make types   the page's types of what the station answers, from the station's own document"
 	@echo "make setup   the environment in .venv that the others make themselves"
 	@echo "make clean   remove the environment and everything built"
 
@@ -53,6 +54,9 @@ $(PAGE): page/node_modules/.package-lock.json $(PAGE_SOURCES)
 
 page: $(PAGE)
 
+types: page/node_modules/.package-lock.json
+	$(BIN)/python page/npm.py run --silent types
+
 # each launch is a flight of its own, with an archive of its own
 run: $(VENV)/run.stamp $(PAGE)
 	$(BIN)/stommel design zju --output build/zju-design.html
@@ -73,7 +77,7 @@ test: check $(PAGE)
 	$(BIN)/python page/npm.py run --silent lint
 	$(BIN)/python page/npm.py run --silent check
 	$(BIN)/python page/npm.py run --silent test
-	$(BIN)/python -m pytest --numprocesses auto --dist loadfile
+	$(BIN)/python -m pytest --numprocesses auto --dist loadgroup
 
 bench: $(VENV)/test.stamp $(PAGE)
 	$(BIN)/python benchmarks/run.py

@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from stommel import dataset_of, load_mission
-from stommel.onboard.coordination.logbook.reader import read_log
+from stommel.messages.log.reader import read_log
 from stommel.simulation.scenario.shipped import mission_path
 from stommel.sitl.flight import fly
 from stommel.sitl.log_folder import logbook_in

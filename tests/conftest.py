@@ -12,6 +12,26 @@ from stommel.vehicle import Vehicle, load_vehicle
 from tests.support.command import Command, run_here, run_process
 from tests.support.shared_data import shared_data
 
+TOGETHER = {
+    "page": ("tests/page/",),
+    "flights": ("tests/sitl/",),
+    "reports": (
+        "tests/report/", "tests/hull/test_hull_in_the_report.py", "tests/bench/test_plots_and_report.py",
+        "tests/cli/test_commands.py",
+    ),
+}  # fmt: skip
+"""What shares costly fixtures runs in one process: a station of the page with its glider, which else flies on beside
+the tests of other rooms until all is over; compiled loops; reports. Every other file is for itself."""
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Tell pytest-xdist, where it is asked to `--dist loadgroup`, what stays together."""
+    for item in items:
+        file = item.nodeid.partition("::")[0]
+        group = next((name for name, begins in TOGETHER.items() if file.startswith(begins)), file)
+        item.add_marker(pytest.mark.xdist_group(group))
+
 
 @pytest.fixture
 def stommel(tmp_path: Path) -> Command:

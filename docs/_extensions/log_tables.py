@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from stommel.onboard.coordination.logbook.records import KINDS, SERIES, Field
+from stommel.messages.log.layout import SERIES
+from stommel.onboard.coordination.logbook.records import KINDS, Field
 
 
 def log_tables() -> Iterator[str]:

@@ -1,7 +1,5 @@
 """The modes of the vehicle's nodes and their parameters, as tables and a diagram, from the tables of the code."""
 
-import ast
-import inspect
 from collections.abc import Iterator
 from itertools import groupby
 from textwrap import fill
@@ -86,21 +84,8 @@ def diagram() -> str:
     return svg_text(figure)
 
 
-def _meanings(settings: NodeSettings) -> dict[str, str]:
-    body = ast.parse(inspect.getsource(type(settings))).body[0]
-    assert isinstance(body, ast.ClassDef)
-    found = {}
-    for before, after in zip(body.body, body.body[1:], strict=False):
-        if isinstance(before, ast.AnnAssign) and isinstance(before.target, ast.Name):
-            match after:
-                case ast.Expr(ast.Constant(str(text))):
-                    found[before.target.id] = " ".join(text.split())
-    return found
-
-
 def parameter_table(settings: NodeSettings) -> Iterator[str]:
     """Lines of the table of a node's parameters, in Markdown; the limits are those of the default."""
-    meanings = _meanings(settings)
     yield "| number | parameter | default | limits | meaning |\n|---|---|---|---|---|\n"
     for p in parameters_of(settings):
         unit = f" {p.unit}".rstrip()
@@ -108,4 +93,4 @@ def parameter_table(settings: NodeSettings) -> Iterator[str]:
             default, limits = str(p.default).lower(), "true, false"
         else:
             default, limits = f"{p.default:g}{unit}", f"{p.low:g} to {p.high:g}{unit}"
-        yield f"| {p.number} | `{p.name}` | {default} | {limits} | {meanings[p.name]} |\n"
+        yield f"| {p.number} | `{p.name}` | {default} | {limits} | {p.words} |\n"

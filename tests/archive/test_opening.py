@@ -51,7 +51,14 @@ def test_samples_and_cells_lie_in_the_order_of_their_key(sqlite_archive: Archive
     """Alembic does not compare this, and long ranges are slow without it."""
     query = text("SELECT name FROM sqlite_master WHERE type = 'table' AND sql LIKE '%WITHOUT ROWID%'")
     with sqlite_archive.reading() as connection:
-        assert set(connection.execute(query).scalars()) == {"samples", "minutes", "ten_minutes", "ctd"}
+        assert set(connection.execute(query).scalars()) == {
+            "samples",
+            "minutes",
+            "ten_minutes",
+            "ctd",
+            "ctd_hours",
+            "profiles",
+        }
 
 
 def test_the_version_is_the_last_of_the_migrations() -> None:

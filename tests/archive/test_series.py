@@ -203,3 +203,26 @@ def test_a_fast_channel_is_drawn_finely_for_two_hours_and_by_minutes_beyond(
 def test_values_outside_their_range_are_refused(sqlite_archive: Archive, asked: dict[str, float], words: str) -> None:
     with pytest.raises(ArchiveRequestError, match=words):
         sqlite_archive.series(1, "depth_m", **{"begin": T, "end": T + 1, **asked})
+
+
+def test_values_that_begin_anew_keep_how_far_they_go_to_either_side(sqlite_archive: Archive) -> None:
+    """A heading that swings 20 deg about north: oracle is the swing itself, which lowest and highest hide."""
+    swing = [20.0 * math.sin(k / 37.0) for k in range(3600)]
+    key = stored(sqlite_archive, [(T + k, value % 360.0) for k, value in enumerate(swing)])
+    bucket = math.ceil((3_600_000_001) / 100) / 1e6
+
+    def shown(turn: float | None) -> list[tuple[float, float]]:
+        found = sqlite_archive.series(1, key, T, T + 3600.0, 200, turn=turn)
+        return [(t, (v + 180.0) % 360.0 - 180.0) for t, v in zip(found.t.tolist(), found.value.tolist(), strict=True)]
+
+    for turn, wanted in ((360.0, True), (None, False)):
+        points = shown(turn)
+        kept = []
+        for number in range(math.floor(T / bucket) + 1, math.floor((T + 3600.0) / bucket)):
+            inside = [v for k, v in enumerate(swing) if (T + k) // bucket == number]
+            seen = [v for t, v in points if t // bucket == number]
+            kept.append(
+                min(seen) == pytest.approx(min(inside), abs=1e-9) and max(seen) == pytest.approx(max(inside), abs=1e-9)
+            )
+        assert len(kept) > 90
+        assert all(kept) is wanted

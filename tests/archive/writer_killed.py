@@ -4,7 +4,6 @@ Run `python -m tests.archive.writer_killed 200` for the full count.
 """
 
 import random
-import subprocess
 import sys
 import tempfile
 import time
@@ -12,27 +11,32 @@ from pathlib import Path
 
 from sqlalchemy import func, select
 
-from stommel.archive import Archive
+from stommel.archive import Archive, Batch, FrameRow
 from stommel.archive.schema import frames, minutes, samples
 from stommel.archive.soundness import soundness_of
+from tests.support.lives import life
 
 ROWS = 50
 """Frames, and samples, of a batch."""
 
-WRITER = f"""
-import sys
-from stommel.archive import Archive, Batch, FrameRow
-print("begun", flush=True)
-archive = Archive.open(sys.argv[1])
-number = int(sys.argv[2])
-while True:
-    t = 1.7e9 + number
-    frames = [FrameRow(t, "in", 1, 1, number, k, True, bytes(40)) for k in range({ROWS})]
-    values = [("channel_%d" % (k % 10), t + k / {ROWS}, float(number)) for k in range({ROWS})]
-    archive.store(1, Batch(frames, values))
-    print(number, flush=True)
-    number += 1
-"""
+
+def write(url: str, number: int) -> None:
+    """Store batch after batch, and say the number of each that is stored."""
+    say("begun")
+    archive = Archive.open(url)
+    while True:
+        t = 1.7e9 + number
+        rows = [FrameRow(t, "in", 1, 1, number, k, True, bytes(40)) for k in range(ROWS)]
+        values = [(f"channel_{k % 10}", t + k / ROWS, float(number)) for k in range(ROWS)]
+        archive.store(1, Batch(rows, values))
+        say(str(number))
+        number += 1
+
+
+def say(words: str) -> None:
+    """Say a line that a death cannot take back."""
+    sys.stdout.write(f"{words}\n")
+    sys.stdout.flush()
 
 
 class LostError(AssertionError):
@@ -44,13 +48,11 @@ def killed_and_looked_at(url: str, next_number: int, delay: float, *, stored: in
 
     The while begins when its imports are over, or when it has reported so many batches as stored.
     """
-    code = [sys.executable, "-c", WRITER, url, str(next_number)]
-    with subprocess.Popen(code, stdout=subprocess.PIPE, text=True) as writer:
-        assert writer.stdout is not None
-        told = [writer.stdout.readline() for _ in range(1 + stored)][1:]
+    with life(write, url, next_number) as (writer, said):
+        told = [said.readline() for _ in range(1 + stored)][1:]
         time.sleep(delay)
         writer.kill()
-        told += writer.stdout.read().splitlines()
+        told += said.read().splitlines()
     last_told = int(told[-1]) if told else next_number - 1
     return looked_at(url, last_told)
 

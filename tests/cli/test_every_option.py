@@ -389,6 +389,7 @@ ELSEWHERE = {
     "station migrate": "tests/archive/test_commands: --database, --settings, --folder",
     "station export": "tests/archive/test_commands: --database, --settings, --folder, --vehicle, --output, --what, "
     "--begin, --end",
+    "station import": "tests/archive/logs/test_import_command: --database, --settings, --folder, --vehicle",
     "station serve": "tests/cli/test_station_simulated: --sitl; "
     "tests/cli/test_station_serve: --database, --folder, --link, --vehicle, --key, --unsigned, "
     "--model, --speed, --settings, --name, --host, --port, --certificate, --key-file, --behind-proxy, --login",

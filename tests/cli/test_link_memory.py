@@ -94,7 +94,7 @@ def saying(words: bytes) -> Iterator[str]:
 
 
 def status_of(folder: Path, address: str) -> str:
-    found = run_here(folder, "link", "status", "--to", address, "--unsigned", "--state", "state", "--within", "0.3")
+    found = run_here(folder, "link", "status", "--to", address, "--unsigned", "--state", "state", "--within", "1.5")
     assert (found.status, found.out) == (2, "")
     return found.err
 

@@ -1,5 +1,6 @@
 """The main job of `make run`: a simulated glider and the station in one command, until Ctrl-C."""
 
+import os
 import re
 import signal
 import subprocess
@@ -9,6 +10,8 @@ from pathlib import Path
 import httpx
 import pytest
 
+from stommel.cli.station.simulated import ended_words
+from tests.station.speaker import until
 from tests.support.command import PROGRAM, run_here
 
 
@@ -21,20 +24,73 @@ def test_one_command_launches_a_glider_and_serves_it(tmp_path: Path) -> None:
             told = process.stdout.readline()
             address = re.search(r"page: (http://127\.0\.0\.1:\d+/)", told)
             assert address, told
-            with httpx.Client(base_url=address[1]) as client:
+            with httpx.Client(base_url=address[1], timeout=60.0) as client:
                 summary = heard(client)
             assert (summary["simulated"], summary["speed"], summary["model"]) == (True, 20.0, "zju")
         finally:
             process.send_signal(signal.SIGINT)
-            assert process.wait(30) == 0
+            assert process.wait(120) == 0
     assert (tmp_path / "archive.sqlite").is_file()
     assert (tmp_path / "glider" / "log").is_dir()
     assert not flying(tmp_path)
 
 
+def test_the_page_is_told_that_the_glider_flies_no_more(tmp_path: Path) -> None:
+    """Its program is killed; the vehicle's summary says so in words, where it said that the connection is refused."""
+    command = [PROGRAM, "station", "--sitl", "east_china_sea", "--folder", tmp_path, "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None
+            address = re.search(r"page: (http://127\.0\.0\.1:\d+/)", process.stdout.readline())
+            assert address
+            os.kill(glider_of(process.pid), signal.SIGKILL)
+            with httpx.Client(base_url=address[1]) as client:
+                until(lambda: "simulated glider was ended from outside" in reason(client), within=60.0)
+                assert "SIGKILL" in reason(client)
+                assert client.get("/api/vehicles/1/link").json()["reason"] == reason(client)
+        finally:
+            process.send_signal(signal.SIGINT)
+            assert process.wait(30) == 0
+
+
+def reason(client: httpx.Client) -> str:
+    (summary,) = client.get("/api/vehicles").raise_for_status().json()
+    return str(summary["link_reason"])
+
+
+def glider_of(station: int) -> int:
+    """The process of its simulated glider."""
+    (child,) = Path(f"/proc/{station}/task/{station}/children").read_text().split()
+    return int(child)
+
+
+@pytest.mark.parametrize(
+    ("status", "said", "words"),
+    [
+        (0, "flown", "the simulated flight is over"),
+        (
+            2,
+            "first\nerror: mission.toml: dives.depth_m = 3: too deep\n",
+            "has failed: error: mission.toml: dives.depth_m",
+        ),
+        (1, "", "it has not said why"),
+        (1, "x" * 100_000, "has failed: xxx"),
+        (-9, "", "ended from outside (SIGKILL)"),
+        (-99, "", "ended from outside (99)"),
+    ],
+)
+def test_why_a_glider_ended_is_one_short_line(tmp_path: Path, status: int, said: str, words: str) -> None:
+    path = tmp_path / "glider.txt"
+    path.write_text(said)
+    told = ended_words(status, path)
+    assert words in told
+    assert "\n" not in told
+    assert len(told) < 300 + len(str(path))
+
+
 def heard(client: httpx.Client) -> dict[str, object]:
     """Summary of the only vehicle once it is heard; the first start compiles the simulated glider."""
-    for _ in range(1200):
+    for _ in range(6000):
         (summary,) = client.get("/api/vehicles").raise_for_status().json()
         if summary["heard"]:
             found: dict[str, object] = summary

@@ -767,6 +767,7 @@ ELSEWHERE = {
     "sitl replay": "as sitl campaign",
     "sitl stand-in": "below",
     "station serve": "prints the address of its page",
+    "station import": "tests/archive/logs/test_import_command",
     **{f"station {verb}": "tests/archive/test_commands" for verb in ("backup", "check", "export", "migrate")},
     **{
         f"station user {verb}": "tests/cli/test_station_people"

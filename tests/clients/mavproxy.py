@@ -12,7 +12,7 @@ from typing import Self
 import pytest
 
 PROGRAM = Path(sys.executable).with_name("mavproxy.py")
-PATIENCE = 30.0
+PATIENCE = 120.0
 """For an answer [s]."""
 
 

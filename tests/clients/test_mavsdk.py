@@ -14,7 +14,7 @@ from stommel.onboard.coordination.executive import State
 from tests.clients.afloat import Afloat, afloat
 
 T = TypeVar("T")
-PATIENCE = 30.0
+PATIENCE = 120.0
 """For anything that is asked for [s]."""
 GOOD = [(29.2, 126.3), (29.3, 126.4)]
 

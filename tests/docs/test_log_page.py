@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from stommel.onboard.coordination.logbook.framing import HEAD, MAGIC, SYNC, TAIL, LogIdentity, header
-from stommel.onboard.coordination.logbook.reader import read_log
-from stommel.onboard.coordination.logbook.records import SERIES
+from stommel.messages.log.layout import HEAD, MAGIC, SERIES, SYNC, TAIL
+from stommel.messages.log.reader import read_log
+from stommel.onboard.coordination.logbook.framing import LogIdentity, header
 
 ROOT = Path(__file__).parents[2]
 GUIDE = (ROOT / "docs/guide/vehicle-log.md").read_text(encoding="utf-8")

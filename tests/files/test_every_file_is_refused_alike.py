@@ -52,9 +52,9 @@ def test_what_is_no_usable_toml(kind: str, defect: str, tmp_path: Path) -> None:
 def test_what_is_too_large(kind: str, tmp_path: Path) -> None:
     """100 MB are refused by their size, before memory is asked for them."""
     path = LARGE.make(tmp_path)
-    start = time.perf_counter()
+    start = time.process_time()
     assert refusal(kind, path) == "cannot be read: " + LARGE.sentence.format(64 if kind in TABLES else 1)
-    assert time.perf_counter() - start < 10.0
+    assert time.process_time() - start < 10.0
 
 
 @pytest.mark.parametrize("kind", LOADERS)

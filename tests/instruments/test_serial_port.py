@@ -24,7 +24,7 @@ from stommel.instruments.tcm.driver import CompassDriver, CompassSettings, Compa
 from stommel.messages.serial_port import PortError, PortSettings, PortState, SerialPort
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
-LONGEST_WAIT = 20.0
+LONGEST_WAIT = 60.0
 
 
 class Bench:

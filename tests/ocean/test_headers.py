@@ -123,7 +123,7 @@ def test_a_header_that_asks_for_too_much_is_refused_at_once(tmp_path: Path, larg
             variable = file.createVariable(name, "f4", tuple(sizes), contiguous=True)
             variable.setncatts({"standard_name": standard, "units": units})
     assert path.stat().st_size < 100_000
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(FileError, match=r"cut the file to the mission's region|needs .* GB of memory"):
         Ocean.open(path)
-    assert time.perf_counter() - start < 5.0
+    assert time.process_time() - start < 5.0

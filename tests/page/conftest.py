@@ -1,9 +1,14 @@
-"""The page in Chromium: a station to look at, a browser, pictures under build/screenshots."""
+"""The page in Chromium: a station to look at, a browser, pictures under build/screenshots.
+
+`STOMMEL_PAGE_SLOW=8` makes the browser's processor eight times slower: tests that do not wait for what they ask fail.
+"""
 
 import json
 import os
+import re
 import subprocess
 import sys
+import tempfile
 import time
 import urllib.request
 from collections.abc import Callable, Iterator
@@ -13,7 +18,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 import stommel
-from tests.support.ports import free_port
+from tests.page.waiting import PATIENCE_S, Traffic
 
 if TYPE_CHECKING:
     from tests.page.past import Past
@@ -29,75 +34,79 @@ ARGUMENTS = [
 AXE = ROOT / "page" / "node_modules" / "axe-core" / "axe.min.js"
 SPEED = "60" if "STOMMEL_PAGE_SOAK" in os.environ else "20"
 """Of the simulated glider, times real time."""
+SLOW = float(os.environ.get("STOMMEL_PAGE_SLOW", "1"))
 Screenshot = Callable[[str], Path]
 
 
-def answers(address: str, process: "subprocess.Popen[bytes]", seconds: float = 60.0) -> None:
-    """Wait until a server answers; fail with its words if it ends before."""
+def answers(said: Path, process: "subprocess.Popen[bytes]", seconds: float = 240.0) -> str:
+    """The address that a server says, once it answers there; fail with its words if it ends before."""
     until = time.monotonic() + seconds
     while time.monotonic() < until:
-        assert process.poll() is None, f"the server ended with status {process.returncode}"
+        words = said.read_text(encoding="utf-8", errors="replace")
+        assert process.poll() is None, f"the server ended with status {process.returncode}: {words}"
         try:
-            urllib.request.urlopen(f"{address}/api/station", timeout=5.0).close()
+            if found := re.search(r"http://[\d.]+:\d+", words):
+                urllib.request.urlopen(f"{found[0]}/api/station", timeout=60.0).close()
+                return found[0]
         except OSError:
-            time.sleep(0.1)
-        else:
-            return
-    pytest.fail(f"no answer from {address} within {seconds} s")
+            pass
+        time.sleep(0.1)
+    pytest.fail(f"the server does not answer within {seconds} s")
 
 
-def serve(command: list[str], address: str) -> "Iterator[subprocess.Popen[bytes]]":
-    """A server while it is needed; it is ended as Ctrl-C would, and killed if that does not help."""
+def serve(command: list[str]) -> "Iterator[tuple[subprocess.Popen[bytes], str]]":
+    """A server while it is needed, and its address; it is ended as Ctrl-C would, and killed if that does not help.
+
+    It takes a port of its own, which nobody else can have taken before, and says which.
+    """
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path(stommel.__file__).parents[1]), str(ROOT)])}
-    process = subprocess.Popen(command, cwd=ROOT, env=environment)
-    try:
-        answers(address, process)
-        yield process
-    finally:
-        process.terminate()
+    with tempfile.NamedTemporaryFile() as said:
+        process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=said)
         try:
-            process.wait(timeout=15)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
+            yield process, answers(Path(said.name), process)
+        finally:
+            process.terminate()
+            try:
+                process.wait(timeout=60)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def built() -> None:
     """The page, which `make page` builds; `make test` does so before."""
     if not BUILT.exists():
         pytest.skip("the page is not built: make page")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def fake_station(built: None) -> Iterator[str]:
     """Address of a stand-in whose answers are made up: quick, with every state of the page on demand."""
-    address = f"http://127.0.0.1:{(port := free_port())}"
-    for _ in serve([sys.executable, "-m", "tests.page.fake_station", str(port)], address):
+    for _, address in serve([sys.executable, "-m", "tests.page.fake_station", "0"]):
         yield address
 
 
-def station_command(folder: Path, port: int, *arguments: str) -> list[str]:
+def station_command(folder: Path, *arguments: str) -> list[str]:
     """Command line of the real station."""
     code = "from stommel.cli import main; main()"
-    return [sys.executable, "-c", code, "station", "--folder", str(folder), "--port", str(port), *arguments]
+    return [sys.executable, "-c", code, "station", "--folder", str(folder), "--port", "0", *arguments]
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def station(built: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Address of the real station with a simulated glider beside it, as `make run` starts it."""
-    address = f"http://127.0.0.1:{(port := free_port())}"
     folder = tmp_path_factory.mktemp("station") / "flight"
-    for _ in serve(station_command(folder, port, "--sitl", "east_china_sea", "--speed", SPEED), address):
+    for _, address in serve(station_command(folder, "--sitl", "east_china_sea", "--speed", SPEED)):
         heard(address)
         yield address
 
 
-def heard(address: str, seconds: float = 240.0) -> None:
+def heard(address: str, seconds: float = 600.0) -> None:
     """Wait until the first vehicle has told its state: a cold simulator compiles for a minute."""
     until = time.monotonic() + seconds
     while time.monotonic() < until:
-        with urllib.request.urlopen(f"{address}/api/vehicles/1", timeout=10.0) as answer:
+        with urllib.request.urlopen(f"{address}/api/vehicles/1", timeout=60.0) as answer:
             if json.load(answer)["state"] is not None:
                 return
         time.sleep(0.5)
@@ -110,6 +119,7 @@ def browser() -> "Iterator[object]":
     sync_api = pytest.importorskip("playwright.sync_api")
     if not CHROMIUM.exists():
         pytest.skip(f"no Chromium at {CHROMIUM}")
+    sync_api.expect.set_options(timeout=1e3 * PATIENCE_S)
     with sync_api.sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=str(CHROMIUM), args=ARGUMENTS)
         yield chromium
@@ -123,7 +133,10 @@ def page(browser, request: pytest.FixtureRequest):
     context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce", **options})
     context.add_init_script("localStorage.setItem('stommel-tour', 'done')")
     tab = context.new_page()
-    tab.set_default_timeout(20_000)
+    tab.set_default_timeout(1e3 * PATIENCE_S)
+    Traffic(tab)
+    if SLOW > 1.0:
+        context.new_cdp_session(tab).send("Emulation.setCPUThrottlingRate", {"rate": SLOW})
     thrown: list[str] = []
     tab.on("pageerror", lambda error: thrown.append(str(error)))
     yield tab
@@ -166,10 +179,19 @@ def serious(page) -> Callable[[], list[str]]:
     return find
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def past(built: None, tmp_path_factory: pytest.TempPathFactory) -> "Iterator[Past]":
     """A real station with six hours of the past, and a vehicle that says what a test wants."""
     from tests.page.past import past_station
 
     with past_station(tmp_path_factory.mktemp("past")) as found:
         yield found
+
+
+@pytest.fixture(scope="package")
+def manned(built: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Address of a real station at which the people of `tests.page.manned` log in."""
+    from tests.page.manned import manned_station
+
+    with manned_station(tmp_path_factory.mktemp("manned")) as address:
+        yield address

@@ -1,7 +1,7 @@
 """A stand-in for the station that answers the page with made-up values. For tests and work on the page only.
 
-`python -m tests.page.fake_station 8080` serves the built page with it. What has no oracle in the real station is not
-tested with it.
+`python -m tests.page.fake_station 8080` serves the built page with it; 0 is a port that is free.
+What has no oracle in the real station is not tested with it.
 """
 
 import asyncio
@@ -9,6 +9,7 @@ import contextlib
 import sys
 import time
 from pathlib import Path
+from socket import create_server
 from typing import Any
 
 from fastapi import FastAPI, HTTPException, WebSocket, WebSocketDisconnect
@@ -240,4 +241,7 @@ app.mount("/", StaticFiles(directory=BUILT, html=True))
 if __name__ == "__main__":
     import uvicorn
 
-    uvicorn.run(app, host="127.0.0.1", port=int(sys.argv[1]), log_level="warning")
+    with create_server(("127.0.0.1", int(sys.argv[1]))) as taken:
+        sys.stdout.write(f"http://127.0.0.1:{taken.getsockname()[1]}\n")
+        sys.stdout.flush()
+        uvicorn.Server(uvicorn.Config(app, log_level="warning")).run(sockets=[taken])

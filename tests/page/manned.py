@@ -1,35 +1,35 @@
 """A real station at which people log in; its vehicle is silent, so that what is given waits."""
 
 import json
-import subprocess
-import sys
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
-import pytest
-
+from stommel.archive import Archive
+from stommel.station.people.people import People
+from stommel.station.people.roles import Role
 from tests.page.conftest import serve, station_command
-from tests.support.ports import free_port
+from tests.support.ports import port_of_nobody
 
 PASSWORD = "a long way to the sea"
-PEOPLE = {"ada": "admin", "ling": "pilot", "max": "pilot", "vera": "viewer"}
+PEOPLE = {"ada": Role.ADMIN, "ling": Role.PILOT, "max": Role.PILOT, "vera": Role.VIEWER}
 
 
-@pytest.fixture(scope="session")
-def manned(built: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Address of a station with the people of `PEOPLE`."""
-    folder = tmp_path_factory.mktemp("manned")
+@contextmanager
+def manned_station(folder: Path) -> Iterator[str]:
+    """Address of a station with the people of `PEOPLE`, until the block ends."""
     database = f"sqlite:///{folder / 'archive.sqlite'}"
-    for name, role in PEOPLE.items():
-        code = "from stommel.cli import main; main()"
-        command = [sys.executable, "-c", code, "station", "user", "add", name, "--role", role, "--database", database]
-        subprocess.run(command, input=PASSWORD, text=True, check=True, capture_output=True, timeout=120)
-    address = f"http://127.0.0.1:{(port := free_port())}"
-    link = ["--link", f"tcp:127.0.0.1:{free_port()}", "--unsigned", "--model", "zju", "--login"]
-    for _ in serve(station_command(folder, port, "--database", database, *link), address):
-        yield address
+    with Archive.open(database) as archive:
+        people = People(archive)
+        for name, role in PEOPLE.items():
+            people.users.add(name, PASSWORD, role)
+    with port_of_nobody() as port:
+        link = ["--link", f"tcp:127.0.0.1:{port}", "--unsigned", "--model", "zju", "--login"]
+        for _, address in serve(station_command(folder, "--database", database, *link)):
+            yield address
 
 
 def sign_in(page: Any, address: str, name: str, view: str) -> None:
@@ -51,7 +51,7 @@ def told(address: str, path: str, token: str | None = None) -> Any:
     request = urllib.request.Request(f"{address}/api{path}")
     if token is not None:
         request.add_header("Authorization", f"Bearer {token}")
-    with urllib.request.urlopen(request, timeout=20.0) as answer:
+    with urllib.request.urlopen(request, timeout=60.0) as answer:
         return json.load(answer)
 
 

@@ -1,5 +1,6 @@
 """When the first vehicle can be read, in a browser that has never been there."""
 
+import os
 from typing import Any
 
 SEEN = "document.querySelector('article.strip h2') !== null"
@@ -19,7 +20,13 @@ def useful_paint_s(browser: Any, station: str) -> float:
         tab = context.new_page()
         tab.goto(f"{station}/#/fleet")
         tab.locator("article.strip h2").first.wait_for()
-        tab.wait_for_timeout(100)  # for the frame; a function to wait for would be evaluated, which the page forbids
-        return float(tab.evaluate("window.usefulAt")) / 1e3
+        while (useful := tab.evaluate("window.usefulAt")) is None:  # not a function to wait for, which the page forbids
+            tab.wait_for_timeout(20)
+        return float(useful) / 1e3
     finally:
         context.close()
+
+
+def is_too_busy() -> bool:
+    """Whether this machine has so much other work that how quick the page is cannot be told."""
+    return os.getloadavg()[0] > 2.0 * (os.cpu_count() or 1) or "STOMMEL_PAGE_SLOW" in os.environ

@@ -1,8 +1,6 @@
 """A real station whose archive has a past, and a vehicle that says what a test wants."""
 
 import math
-import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,9 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from stommel.archive import Archive, Batch, CtdRow, DiveRow
-from tests.page.conftest import serve
+from tests.page.conftest import serve, station_command
 from tests.station.speaker import Speaker, speaker
-from tests.support.ports import free_port
 
 HOURS = 6
 STEP = 2.0
@@ -103,12 +100,7 @@ def past_station(folder: Path) -> Iterator[Past]:
 @contextmanager
 def station(folder: Path, database: str, link: str) -> Iterator[str]:
     """Address of `stommel station` with one vehicle until the block ends."""
-    address = f"http://127.0.0.1:{(port := free_port())}"
-    command = [
-        sys.executable, "-c", "from stommel.cli import main; main()", "station", "--database", database, "--link", link,
-        "--unsigned", "--model", "zju", "--folder", str(folder), "--port", str(port),
-    ]  # fmt: skip
-    process: subprocess.Popen[bytes]
-    for process in serve(command, address):
+    told = ["--database", database, "--link", link, "--unsigned", "--model", "zju"]
+    for process, address in serve(station_command(folder, *told)):
         yield address
         assert process.poll() is None, "the station ended during the test"

@@ -6,8 +6,8 @@ import httpx
 import pytest
 
 from tests.page.past import Past
+from tests.page.waiting import at_rest, becomes, until
 
-pytestmark = pytest.mark.timeout(180)
 NEEDS = "Alarms that need somebody"
 PAST = "History of alarms"
 
@@ -32,13 +32,11 @@ def test_an_alarm_comes_by_itself_sounds_and_is_acknowledged(page: Any, past: Pa
     """)
     opened(page, past)
     page.get_by_role("switch", name="Sound").check()
-    before = page.evaluate("window.tones")
-    assert before == 1, "the switch lets one hear that there is a sound"
+    before = becomes(page, lambda: page.evaluate("window.tones"), 1)  # the switch lets one hear that there is a sound
     past.speaker.say("GLIDER_STATE", time_boot_ms=1, depth=230.5, alarms=0)
     row = page.get_by_role("region", name=NEEDS).get_by_role("row", name="Depth greater than 200 m")
     row.wait_for()
-    page.wait_for_timeout(300)
-    assert page.evaluate("window.tones") >= before + 2
+    until(page, lambda: page.evaluate("window.tones") >= before + 2)
     screenshot("alarms-open")
 
     row.get_by_role("button", name="Acknowledge").click()
@@ -56,17 +54,17 @@ def test_an_alarm_comes_by_itself_sounds_and_is_acknowledged(page: Any, past: Pa
 
 
 def test_the_sound_switch_is_remembered(page: Any, past: Past) -> None:
+    from playwright.sync_api import expect
+
     opened(page, past)
     switch = page.get_by_role("switch", name="Sound")
-    assert not switch.is_checked()
+    expect(switch).not_to_be_checked()
     switch.check()
     page.reload()
-    switch.wait_for()
-    assert switch.is_checked()
+    expect(switch).to_be_checked()
     switch.uncheck()
     page.reload()
-    switch.wait_for()
-    assert not switch.is_checked()
+    expect(switch).not_to_be_checked()
 
 
 def test_a_limit_is_set_changed_drawn_and_removed(page: Any, past: Past) -> None:
@@ -121,8 +119,9 @@ def test_a_limit_that_cannot_be_is_refused_in_the_form(
 @pytest.mark.parametrize("page", [{"color_scheme": "dark", "viewport": {"width": 1024, "height": 768}}], indirect=True)
 def test_nobody_is_kept_from_the_alarms(page: Any, past: Past, serious: Any, screenshot: Any) -> None:
     """axe-core: no serious finding, in the list and in a form."""
-    opened(page, past)
+    at_rest(opened(page, past))
     screenshot("alarms-tablet-dark")
     assert serious() == []
     page.get_by_role("button", name="Add a limit").click()
+    page.get_by_role("dialog").wait_for()
     assert serious() == []

@@ -6,12 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import httpx
-import pytest
 from PIL import Image
 
 from tests.page.past import Past
+from tests.page.waiting import at_rest
 
-pytestmark = pytest.mark.timeout(180)
 REEF = {"type": "Polygon", "coordinates": [[[123.01, 30.01], [123.03, 30.015], [123.02, 30.03], [123.01, 30.01]]]}
 
 
@@ -53,7 +52,7 @@ def test_a_chart_of_geojson_and_one_of_an_image_are_added_and_removed(
     dialog.get_by_role("button", name="Add to the map").click()
     page.get_by_role("button", name="chart", exact=True).wait_for()
     assert layers(past)[1]["bounds"] == [122.95, 30.01, 122.99, 30.035]
-    page.wait_for_timeout(500)
+    at_rest(page)
     screenshot("map-with-chart-layers")
 
     page.get_by_role("button", name="Chart layers").click()

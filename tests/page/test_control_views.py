@@ -5,6 +5,8 @@ from typing import Any
 
 import pytest
 
+from tests.page.waiting import at_rest
+
 DESK, TABLET = {"width": 1440, "height": 900}, {"width": 1024, "height": 768}
 VIEWS = {
     "commands": "[data-kind='radio-time']",
@@ -33,12 +35,14 @@ def test_nothing_serious_is_found_and_nothing_is_cut_off(
 ) -> None:
     """Issue: accessible, light and dark, on a tablet. The view fits its window sideways."""
     page.goto(f"{station}/#/{view}" if view == "people" else f"{station}/#/vehicle/1/{view}")
-    page.locator(VIEWS[view]).first.wait_for(timeout=90_000)
+    page.locator(VIEWS[view]).first.wait_for(timeout=240_000)
     if view == "commands":
         page.locator("[data-kind='radio-time'] > button").click()
+        page.get_by_label("time, s").wait_for()
     if view == "parameters":
         page.locator("[data-parameter='SURFACE_TIME']").click()
-    page.wait_for_timeout(500)
+        page.get_by_label("New value, s").wait_for()
+    at_rest(page)
     screenshot(f"{view}-{request.node.callspec.id}")
     assert serious() == []
     assert (

@@ -12,8 +12,7 @@ import pytest
 import xarray as xr
 
 from tests.page.past import DIVE, Past
-
-pytestmark = pytest.mark.timeout(180)
+from tests.page.waiting import at_rest, comes_to_rest, until
 
 
 def opened(page: Any, past: Past, show: str) -> Any:
@@ -28,38 +27,40 @@ def whole_dives(past: Past) -> int:
 
 
 def test_dives_stand_in_the_table_and_on_the_map(page: Any, past: Past, screenshot: Any) -> None:
+    from playwright.sync_api import expect
+
     opened(page, past, "dives").wait_for_selector("tbody tr td.number")
     rows = page.locator("tbody tr")
-    assert rows.count() == whole_dives(past)
+    expect(rows).to_have_count(whole_dives(past))
     first = rows.first.inner_text()
     assert "200" in first  # deepest
     assert "900" in first  # distance: 0.25 m/s for an hour
     assert "0.22" in first
     assert "063°" in first  # current: hypot(0.1, 0.2) towards atan2(0.2, 0.1)
     rows.first.click()
-    window = page.get_by_role("link", name="Plots").last.get_attribute("href")
+    window = page.locator("footer").get_by_role("link", name="Plots").get_attribute("href")
     begin, end = map(float, re.findall(r"window=([\d.]+)-([\d.]+)", window)[0])
     assert (begin % DIVE, end - begin) == (0.0, DIVE)
-    page.wait_for_timeout(500)
+    at_rest(page)
     screenshot("data-dives")
 
 
 def test_profiles_are_shown_over_depth_with_values_at_the_pointer(page: Any, past: Past, screenshot: Any) -> None:
+    from playwright.sync_api import expect
+
     opened(page, past, "profiles").wait_for_selector("figure canvas")
     rows = page.locator("tbody tr")
     assert rows.count() == pytest.approx(2 * whole_dives(past), abs=2)
     rows.nth(1).click()
-    page.wait_for_timeout(800)
     page.get_by_role("button", name="In-situ temperature").click()
-    sheet = page.locator("figure .sheet").first
-    box = sheet.bounding_box()
+    expect(page.locator("figure .sheet")).to_have_count(4)
+    at_rest(page)
+    box = comes_to_rest(page, page.locator("figure .sheet").first.bounding_box)
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 0.4 * box["height"])
-    page.wait_for_timeout(300)
+    expect(page.locator("figure").last.locator("figcaption span")).to_have_count(2)
     depth = float(page.locator("output", has_text=" m").inner_text().split()[0])
     warm = 24.0 - 14.0 / (1.0 + math.exp(-(depth - 45.0) / 12.0))
-    said = page.locator("figure").last.locator("figcaption span").all_inner_texts()
-    assert len(said) == 2
-    for text in said:
+    for text in page.locator("figure").last.locator("figcaption span").all_inner_texts():
         assert float(text) == pytest.approx(warm, abs=1.5), "the nearest sample is within 5 m"
     screenshot("data-profiles")
 
@@ -68,12 +69,13 @@ def test_profiles_are_shown_over_depth_with_values_at_the_pointer(page: Any, pas
 def test_a_section_tells_the_value_under_the_pointer(page: Any, past: Past, screenshot: Any) -> None:
     opened(page, past, "section").wait_for_selector(".sheet canvas")
     page.get_by_label("Variable").select_option("temperature")
-    page.wait_for_timeout(1500)
-    box = page.locator(".sheet").bounding_box()
+    page.get_by_label("In-situ temperature over depth").wait_for()
+    at_rest(page)
+    box = comes_to_rest(page, page.locator(".sheet").bounding_box)
     page.mouse.move(box["x"] + 0.8 * box["width"], box["y"] + 0.6 * box["height"])
-    page.wait_for_timeout(300)
-    said = page.locator(".section output").inner_text()
-    value, depth = (float(found) for found in re.match(r"([\d.]+) °C at (\d+) m", said).groups())  # type: ignore[union-attr]
+    output, form = page.locator(".section output"), re.compile(r"([\d.]+) °C at (\d+) m")
+    until(page, lambda: form.match(output.inner_text()))
+    value, depth = (float(found) for found in form.match(output.inner_text()).groups())  # type: ignore[union-attr]
     warm = 24.0 - 14.0 / (1.0 + math.exp(-(depth - 45.0) / 12.0))
     assert value == pytest.approx(warm, abs=0.8)
     screenshot("data-section-dark")
@@ -89,7 +91,7 @@ def test_a_ts_diagram_has_samples_and_lines_of_equal_density(page: Any, past: Pa
     for line in answer["lines"]:
         salinity, temperature = line["absolute_salinity"][0], line["conservative_temperature"][0]
         assert gsw.sigma0(salinity, temperature) == pytest.approx(line["level"], abs=0.01)  # TEOS-10
-    page.wait_for_timeout(500)
+    at_rest(page)
     screenshot("data-ts")
 
 
@@ -121,18 +123,20 @@ def test_a_stretch_of_time_bounds_everything(page: Any, past: Past) -> None:
     opened(page, past, "dives").wait_for_selector("tbody tr td.number")
     page.get_by_role("button", name="all that was sampled").click()
     first = math.ceil(past.begin / DIVE) * DIVE
-    page.wait_for_timeout(500)
+    at_rest(page)
     with page.expect_response("**/dives?*") as answered:
         page.get_by_label("To, UTC").fill(page.get_by_label("From, UTC").input_value())
         page.get_by_label("To, UTC").press("Tab")
     assert [dive["t_begin"] for dive in answered.value.json()] == [first]
     page.get_by_label("To, UTC").fill("yesterday")
     page.get_by_label("To, UTC").press("Tab")
-    assert page.get_by_label("To, UTC").evaluate("input => input.validationMessage").startswith("A time is written as")
+    wrong = page.get_by_label("To, UTC")
+    until(page, lambda: wrong.evaluate("one => one.validationMessage").startswith("A time is written as"))
 
 
 @pytest.mark.parametrize("show", ["dives", "profiles", "section", "ts"])
 def test_nobody_is_kept_from_the_data(page: Any, past: Past, serious: Any, show: str) -> None:
     """axe-core: no serious finding."""
-    opened(page, past, show).wait_for_timeout(2000)
+    opened(page, past, show).locator("td.number, .sheet canvas").first.wait_for()
+    at_rest(page)
     assert serious() == []

@@ -6,6 +6,8 @@ from typing import Any
 
 import pytest
 
+from tests.page.waiting import at_rest
+
 STATION_VIEWS = ("fleet", "map", "people")
 VEHICLE_VIEWS = (
     "vehicle", "plots", "data", "commands", "parameters", "plan", "link", "files", "alarms", "replay", "log",
@@ -26,13 +28,13 @@ def test_view_opens_and_has_no_serious_finding(
     """Issue: browser tests for every view; axe without a serious finding, in light and dark; pictures kept."""
     page.goto(f"{station}/{address_of(view)}")
     page.locator("main > *").first.wait_for()
-    page.wait_for_timeout(1500)  # lazy parts and first answers
+    at_rest(page)
     screenshot(f"{view}-desktop-light")
     assert page.get_by_text("This view stopped").count() == 0
     assert serious() == []
     page.emulate_media(color_scheme="dark")
     page.set_viewport_size({"width": 1024, "height": 768})
-    page.wait_for_timeout(300)
+    at_rest(page)
     screenshot(f"{view}-tablet-dark")
     assert serious() == []
     wide = "document.documentElement.scrollWidth <= document.documentElement.clientWidth"

@@ -241,7 +241,7 @@ def test_it_goes_with_the_mission_and_the_map_of_the_vehicle_has_it(view: Any, s
         dialog.get_by_role("alert").or_(view.get_by_text("is on its way to")).first.wait_for(timeout=60_000)
     view.locator("[data-mission][data-state='aboard']", has_text=name).wait_for(timeout=240_000)
     aboard = told(station, "/vehicles/1/mission")
-    assert [(place["latitude"], place["longitude"]) for place in aboard["fence"]] == corners
+    assert [(place["latitude"], place["longitude"]) for place in aboard["geofence"]] == corners
     assert told(station, "/vehicles/1/mission/comparison")["left_geofence"] is None
     kept = told(station, f"/vehicles/1/missions/{aboard['mission']['id']}")["plan"]["geofence"]
     assert [(place["latitude_deg"], place["longitude_deg"]) for place in kept] == corners

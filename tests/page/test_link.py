@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from tests.page.manned import told
+from tests.page.waiting import becomes, until
 
 
 @pytest.fixture
@@ -20,12 +21,15 @@ def view(page: Any, station: str) -> Any:
 def test_the_tiles_say_what_the_station_counts_both_ways(view: Any, station: str, screenshot: Any) -> None:
     """Oracle: the counts before and after, from the API, hold what is shown between them."""
     before = told(station, "/vehicles/1/link")["figures"]["good"]
-    view.wait_for_timeout(2500)
-    shown = int(re.sub(r"\D", "", view.locator("[data-figure='good'] .value").first.inner_text()))
-    assert before <= shown <= told(station, "/vehicles/1/link")["figures"]["good"]
-    view.get_by_text("as the vehicle hears this station").wait_for(timeout=60_000)
+
+    def shown() -> int:
+        return int(re.sub(r"\D", "", view.locator("[data-figure='good'] .value").first.inner_text()))
+
+    until(view, lambda: shown() > before)
+    assert shown() <= told(station, "/vehicles/1/link")["figures"]["good"]
+    view.get_by_text("as the vehicle hears this station").wait_for(timeout=240_000)
     word = "on" if told(station, "/vehicles/1/link")["figures"]["is_signing"] else "off"
-    assert view.locator("[data-figure='signing'] .value").all_inner_texts() == [word, word]
+    becomes(view, view.locator("[data-figure='signing'] .value").all_inner_texts, [word, word])
     screenshot("link")
 
 
@@ -33,8 +37,11 @@ def test_raw_frames_are_filtered_and_taken_apart(view: Any, station: str) -> Non
     """Oracle: MAVLink 2: 0xfd, the length of the payload, and 12 bytes around it."""
     view.get_by_label("Message", exact=True).select_option("HEARTBEAT")
     view.get_by_role("button", name="Follow").click()
+    messages = view.locator("tbody tr.pick td:nth-child(3)")
+    until(view, lambda: set(messages.all_inner_texts()) == {"HEARTBEAT"})
     row = view.locator("tr.in", has_text="HEARTBEAT").first
     row.click()
+    view.locator(".detail .byte").last.wait_for()
     digits = view.get_by_role("img", name="Bytes of the frame").locator(".byte").all_inner_texts()
     assert digits[0] == "fd"
     assert f"payload, {int(digits[1], 16)} bytes" in view.locator(".detail").inner_text()
@@ -42,28 +49,32 @@ def test_raw_frames_are_filtered_and_taken_apart(view: Any, station: str) -> Non
     frame = told(station, "/vehicles/1/frames?message=HEARTBEAT&limit=1")[0]
     for field in frame["values"]:
         assert view.get_by_role("row", name=re.compile(rf"^{field} ")).count() == 1
-    assert set(view.locator("tbody tr.pick td:nth-child(3)").all_inner_texts()) == {"HEARTBEAT"}
+    assert set(messages.all_inner_texts()) == {"HEARTBEAT"}
 
 
 def test_a_file_of_the_vehicle_is_fetched_whole_and_downloaded(page: Any, station: str, screenshot: Any) -> None:
     """Oracle: the SHA-256 of what the browser got, beside the one that the page shows."""
+    from playwright.sync_api import expect
+
     page.goto(f"{station}/#/vehicle/1/files")
-    page.get_by_role("button", name="missions/").click(timeout=60_000)
+    page.get_by_role("button", name="missions/").click(timeout=240_000)
     row = page.locator("tr[data-entry]", has=page.get_by_role("button", name="Fetch")).first
-    row.wait_for(timeout=60_000)
+    row.wait_for(timeout=240_000)
     name = row.get_attribute("data-entry")
     row.get_by_role("button", name="Fetch").click()
     link = page.get_by_role("link", name=f"missions/{name}")
-    link.wait_for(timeout=120_000)
+    link.wait_for(timeout=240_000)
     page.locator(f"[data-transfer='missions/{name}'][data-state='whole']").wait_for()
     with page.expect_download() as download:
         link.click()
     digest = hashlib.sha256(download.value.path().read_bytes()).hexdigest()
-    assert digest[:12] in page.get_by_role("row", name=f"missions/{name}").inner_text()
+    expect(page.get_by_role("row", name=f"missions/{name}")).to_contain_text(digest[:12])
     screenshot("files")
 
 
 def test_a_path_that_leaves_the_vehicle_is_told_before_it_is_sent(page: Any, station: str, tmp_path: Any) -> None:
+    from playwright.sync_api import expect
+
     file = tmp_path / "note.txt"
     file.write_text("hello")
     page.goto(f"{station}/#/vehicle/1/files")
@@ -71,4 +82,4 @@ def test_a_path_that_leaves_the_vehicle_is_told_before_it_is_sent(page: Any, sta
     page.get_by_label("File of this computer").set_input_files(file)
     page.get_by_label("Name aboard, with its folder").fill("../note.txt")
     page.get_by_text("no empty, “.” or “..” folders").wait_for()
-    assert page.get_by_role("dialog").get_by_role("button", name="Send", exact=True).is_disabled()
+    expect(page.get_by_role("dialog").get_by_role("button", name="Send", exact=True)).to_be_disabled()

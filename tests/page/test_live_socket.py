@@ -2,12 +2,12 @@
 
 import json
 import re
-from collections.abc import Callable
 from typing import Any
 
 import pytest
 
 from tests.page import fake_glider as glider
+from tests.page.waiting import until
 
 NOW = glider.EPOCH + 5000.0
 
@@ -18,25 +18,38 @@ class PlayedStation:
     def __init__(self, page: Any) -> None:
         self.sockets: list[Any] = []
         self.asked: list[list[dict[str, Any]]] = []
+        self._told: dict[str, tuple[float, float, float]] = {}
         page.route_web_socket(re.compile("/api/live$"), self._open)
 
     def _open(self, socket: Any) -> None:
         asked: list[dict[str, Any]] = []
         self.sockets.append(socket)
         self.asked.append(asked)
-        socket.on_message(lambda text: asked.append(json.loads(text)))
+        self._told.clear()
+        socket.on_message(lambda text: self._hear(asked, json.loads(text)))
         hello = [glider.summary(1, NOW, 20.0), glider.summary(2, NOW, 1.0)]
         socket.send(json.dumps({"type": "hello", "now": NOW, "vehicles": hello}))
+
+    def _hear(self, asked: list[dict[str, Any]], message: dict[str, Any]) -> None:
+        asked.append(message)
+        if message["type"] == "subscribe":
+            for channel in set(message["channels"]) & set(self._told):
+                self._say(message["id"], channel)
+
+    def _say(self, identity: str, channel: str) -> None:
+        t, value, now = self._told[channel]
+        message = {"type": "values", "id": identity, "vehicle": 1, "now": now, "values": {channel: [t, value]}}
+        self.sockets[-1].send(json.dumps(message))
 
     def ids(self, channel: str) -> list[str]:
         """Subscriptions of the present socket that hold a channel."""
         return [m["id"] for m in self.asked[-1] if m["type"] == "subscribe" and channel in m["channels"]]
 
     def tell(self, channel: str, t: float, value: float, now: float = NOW) -> None:
-        """Say a value to all who asked for it."""
+        """Say a value to all who have asked for it on the present socket, and to those who still will."""
+        self._told[channel] = (t, value, now)
         for identity in self.ids(channel):
-            message = {"type": "values", "id": identity, "vehicle": 1, "now": now, "values": {channel: [t, value]}}
-            self.sockets[-1].send(json.dumps(message))
+            self._say(identity, channel)
 
 
 @pytest.fixture
@@ -47,15 +60,6 @@ def played(page: Any, fake_station: str) -> PlayedStation:
     page.wait_for_function("document.querySelectorAll('.tile').length > 20")
     until(page, lambda: bool(station.ids("temperature_degc")))
     return station
-
-
-def until(page: Any, true: Callable[[], bool], seconds: float = 20.0) -> None:
-    """Let the page go on until something holds."""
-    for _ in range(int(seconds / 0.05)):
-        if true():
-            return
-        page.wait_for_timeout(50)
-    pytest.fail("it did not happen in time")
 
 
 def tile(page: Any, label: str) -> Any:
@@ -74,14 +78,19 @@ def test_after_a_lost_socket_every_tile_shows_its_latest_value_and_age(page: Any
     until(page, lambda: {json.dumps(sorted(m["channels"])) for m in played.asked[1]} >= before)
     played.tell("temperature_degc", NOW - 3000.0, 14.5)  # of the archive: older than twice its period of 600 s
     water.get_by_text("14.5").wait_for()
-    assert "stale" in (water.get_attribute("class") or "")
+    until(page, lambda: "stale" in (water.get_attribute("class") or ""))
     water.get_by_text(re.compile("^old, (49|50|51)")).wait_for()
 
 
 def test_a_subscription_that_fails_leaves_the_others_alone(page: Any, played: PlayedStation) -> None:
     """akhenry/openmct-yamcs#220: opening one view dropped all live data."""
-    attitude = next(m["id"] for m in played.asked[-1] if m.get("channels") == ["pitch_deg", "roll_deg", "heading_deg"])
-    played.sockets[-1].send(json.dumps({"type": "error", "id": attitude, "reason": "There is no such channel."}))
+
+    def attitude() -> list[str]:
+        wanted = ["pitch_deg", "roll_deg", "heading_deg"]
+        return [m["id"] for m in played.asked[-1] if m.get("channels") == wanted]
+
+    until(page, attitude)
+    played.sockets[-1].send(json.dumps({"type": "error", "id": attitude()[0], "reason": "There is no such channel."}))
     played.tell("depth_m", NOW - 1.0, 87.25)
     tile(page, "Depth").get_by_text("87.3").wait_for()
     assert len(played.sockets) == 1
@@ -116,8 +125,8 @@ def test_the_page_says_that_the_station_is_lost_and_tries_again(page: Any, fake_
     sockets[0].close()
     banner = page.get_by_text("The station is not reached")
     banner.wait_for()
-    assert page.locator(".lamp", has_text="station lost").count() == 1
+    page.locator(".lamp", has_text="station lost").wait_for()
     page.get_by_role("link", name="ZJU glider", exact=True).wait_for()  # what was known stays
     refuse["now"] = False
-    banner.wait_for(state="detached", timeout=15_000)
+    banner.wait_for(state="detached")
     assert len(sockets) == 2

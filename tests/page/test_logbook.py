@@ -3,11 +3,9 @@
 from typing import Any
 
 import httpx
-import pytest
 
 from tests.page.past import Past
-
-pytestmark = pytest.mark.timeout(180)
+from tests.page.waiting import at_rest, passes
 
 
 def opened(page: Any, past: Past) -> Any:
@@ -47,12 +45,14 @@ def test_what_another_person_writes_comes_by_itself_as_text(page: Any, past: Pas
     words = "<img src=x onerror=\"document.title='taken'\"><script>document.title='taken'</script>"
     httpx.post(f"{past.address}/api/notes", json={"vehicle": 1, "words": words}).raise_for_status()
     page.locator("li.note", has_text="<img src=x").wait_for()
-    page.wait_for_timeout(300)
+    passes(page, 200)
     assert page.title() != "taken"
     assert page.locator("li img").count() == 0
 
 
 def test_entries_are_found_by_kind_and_words(page: Any, past: Past) -> None:
+    from playwright.sync_api import expect
+
     for words in ("first needle", "second needle", "third straw"):
         httpx.post(f"{past.address}/api/notes", json={"vehicle": 1, "words": words}).raise_for_status()
     past.speaker.say("GLIDER_STATE", time_boot_ms=1, depth=0.0, alarms=1)
@@ -61,7 +61,7 @@ def test_entries_are_found_by_kind_and_words(page: Any, past: Past) -> None:
     page.locator("li.alarm").first.wait_for(state="detached")
     page.get_by_role("searchbox").fill("needle")
     page.locator("li", has_text="third straw").wait_for(state="detached")
-    assert page.locator("li.note").count() == 2
+    expect(page.locator("li.note")).to_have_count(2)
     page.get_by_role("searchbox").fill("no such words")
     page.get_by_text("Nothing in the log book is like that.").wait_for()
     past.speaker.say("GLIDER_STATE", time_boot_ms=2, depth=0.0, alarms=0)
@@ -70,16 +70,17 @@ def test_entries_are_found_by_kind_and_words(page: Any, past: Past) -> None:
 def test_older_entries_come_page_by_page(page: Any, past: Past) -> None:
     from playwright.sync_api import expect
 
-    for number in range(130):
-        note = {"vehicle": 1, "words": f"page {number}", "t": past.begin + number}
-        httpx.post(f"{past.address}/api/notes", json=note).raise_for_status()
+    with httpx.Client(timeout=60.0) as person:
+        for number in range(130):
+            note = {"vehicle": 1, "words": f"page {number}", "t": past.begin + number}
+            person.post(f"{past.address}/api/notes", json=note).raise_for_status()
     opened(page, past).get_by_role("searchbox").fill("page")
     expect(page.locator("li.note")).to_have_count(100)
     page.get_by_role("button", name="Older entries").click()
     expect(page.locator("li.note")).to_have_count(130)
     texts = page.locator("li.note .words").all_inner_texts()
     assert texts == [f"page {number}" for number in reversed(range(130))]
-    assert page.get_by_role("button", name="Older entries").count() == 0
+    expect(page.get_by_role("button", name="Older entries")).to_have_count(0)
 
 
 def test_an_empty_note_is_not_written(page: Any, past: Past) -> None:
@@ -89,5 +90,5 @@ def test_an_empty_note_is_not_written(page: Any, past: Past) -> None:
 
 def test_nobody_is_kept_from_the_log_book(page: Any, past: Past, serious: Any) -> None:
     """axe-core: no serious finding."""
-    opened(page, past).wait_for_timeout(500)
+    at_rest(opened(page, past))
     assert serious() == []

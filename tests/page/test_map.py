@@ -1,53 +1,63 @@
 """The sea map by pointer, wheel and keys, on made-up values."""
 
+import math
 from collections.abc import Callable
 from typing import Any
 
 import pytest
+
+from tests.page.waiting import all_asked, becomes, passes, until
 
 BAR = ".map .scale"
 
 
 @pytest.fixture
 def sea(page: Any, fake_station: str) -> Any:
-    """The map view, drawn."""
+    """The map view, drawn with the mission of the vehicle, to which it fits itself."""
     page.goto(f"{fake_station}/#/map")
     page.locator(".map .vehicle").wait_for()
-    page.wait_for_timeout(500)
+    page.locator(".map .waypoint").nth(2).wait_for()
     return page
 
 
-def place(page: Any) -> tuple[float, float]:
-    """Where the vehicle's mark stands, pixels."""
-    box = page.locator(".map .vehicle path").bounding_box()
-    return box["x"], box["y"]
+def place(page: Any, number: int = 2) -> tuple[float, float]:
+    """Where the middle of a waypoint's mark stands, pixels; the glider would fly on while the test looks."""
+    box = page.locator(".map .waypoint .face").nth(number - 1).bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def beside(at: tuple[float, float], x: float = 0.0, y: float = 0.0) -> tuple[object, object]:
+    """So many pixels from there; marks are drawn to a tenth of a pixel."""
+    return pytest.approx(at[0] + x, abs=0.5), pytest.approx(at[1] + y, abs=0.5)
+
+
+def apart(page: Any) -> float:
+    """Pixels between the first two waypoints, which tell how near the map is."""
+    return math.dist(place(page, 1), place(page, 2))
 
 
 def test_keys_move_and_zoom_the_map(sea: Any) -> None:
-    chart = sea.get_by_role("application", name="Map of all vehicles")
-    chart.focus()
-    before, bar = place(sea), sea.locator(BAR).inner_text()
-    for _ in range(3):
+    sea.get_by_role("application", name="Map of all vehicles").focus()
+    before, far, bar = place(sea), apart(sea), sea.locator(BAR).inner_text()
+    for presses in (1, 2, 3):
         sea.keyboard.press("ArrowLeft")
-        sea.wait_for_timeout(100)
-    after = place(sea)
-    assert after[0] - before[0] == pytest.approx(180.0, abs=3.0)  # 60 pixels a press; the glider itself flies on
-    assert after[1] == pytest.approx(before[1], abs=3.0)
-    for _ in range(4):
+        becomes(sea, lambda: place(sea), beside(before, x=60.0 * presses))
+    for presses in (1, 2, 3, 4):
         sea.keyboard.press("+")
-    assert sea.locator(BAR).inner_text() != bar
+        becomes(sea, lambda: apart(sea) / far, pytest.approx(1.5**presses, rel=0.01))
+    until(sea, lambda: sea.locator(BAR).inner_text() != bar)
     sea.keyboard.press("0")
-    assert place(sea)[0] == pytest.approx(before[0], abs=6.0)
-    assert sea.locator(BAR).inner_text() == bar
+    becomes(sea, lambda: place(sea), beside(before))
+    becomes(sea, lambda: sea.locator(BAR).inner_text(), bar)
 
 
 def test_the_place_below_the_wheel_stays(sea: Any) -> None:
-    before = place(sea)
-    box = sea.locator(".map .vehicle path").bounding_box()
-    sea.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    for _ in range(3):
+    before, far = place(sea), apart(sea)
+    sea.mouse.move(*before)
+    for turns in (1, 2, 3):
         sea.mouse.wheel(0, -200)
-    assert place(sea) == (pytest.approx(before[0], abs=8.0), pytest.approx(before[1], abs=8.0))
+        becomes(sea, lambda: apart(sea) / far, pytest.approx(math.exp(0.5 * turns), rel=0.01))
+    becomes(sea, lambda: place(sea), (pytest.approx(before[0], abs=1.5), pytest.approx(before[1], abs=1.5)))
 
 
 def test_dragging_moves_the_map_with_the_pointer(sea: Any) -> None:
@@ -57,8 +67,7 @@ def test_dragging_moves_the_map_with_the_pointer(sea: Any) -> None:
     sea.mouse.move(340, 560, steps=4)
     sea.mouse.move(420, 640, steps=4)
     sea.mouse.up()
-    after = place(sea)
-    assert (after[0] - before[0], after[1] - before[1]) == (pytest.approx(120, abs=6), pytest.approx(40, abs=6))
+    becomes(sea, lambda: place(sea), beside(before, x=120.0, y=40.0))
 
 
 def test_enter_on_a_vehicle_opens_it(sea: Any) -> None:
@@ -76,9 +85,19 @@ def test_the_coast_comes_once_and_is_drawn(page: Any, fake_station: str, screens
     page.get_by_role("application", name="Map of all vehicles").focus()
     for _ in range(14):
         page.keyboard.press("-")
-    page.wait_for_timeout(1000)
+    until(page, lambda: shares(page)[1] > 0.1)
     screenshot("map-wide")
-    shares = page.evaluate(
+    assert sum(shares(page)) > 0.8
+    page.goto(f"{fake_station}/#/vehicle/1")
+    page.locator(".map .vehicle").wait_for()
+    passes(page, 0)
+    all_asked(page)
+    assert len(fetched) == 1
+
+
+def shares(page: Any) -> list[float]:
+    """Shares of the map that the two commonest colours cover."""
+    found: list[float] = page.evaluate(
         """() => {
           const canvas = document.querySelector('.map canvas');
           const pixels = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
@@ -87,11 +106,7 @@ def test_the_coast_comes_once_and_is_drawn(page: Any, fake_station: str, screens
             const key = `${pixels[i]},${pixels[i + 1]},${pixels[i + 2]}`;
             colours[key] = (colours[key] ?? 0) + 4 / pixels.length;
           }
-          return Object.values(colours).sort((a, b) => b - a).slice(0, 2);
+          return [...Object.values(colours), 0].sort((a, b) => b - a).slice(0, 2);
         }"""
     )
-    assert shares[0] + shares[1] > 0.8
-    assert shares[1] > 0.1
-    page.goto(f"{fake_station}/#/vehicle/1")
-    page.locator(".map .vehicle").wait_for()
-    assert len(fetched) == 1
+    return found

@@ -2,9 +2,8 @@
 
 from typing import Any
 
-from tests.page.manned import PASSWORD, kind, manned, sign_in, status
-
-__all__ = ["manned"]
+from tests.page.manned import PASSWORD, kind, sign_in, status
+from tests.page.waiting import PATIENCE_S, becomes
 
 
 def test_a_wrong_password_is_told_and_the_right_one_lets_in(page: Any, manned: str) -> None:
@@ -23,6 +22,8 @@ def test_a_wrong_password_is_told_and_the_right_one_lets_in(page: Any, manned: s
 def test_an_admin_adds_somebody_who_can_sign_in_and_is_kept_out_again(
     page: Any, browser: Any, manned: str, screenshot: Any
 ) -> None:
+    from playwright.sync_api import expect
+
     sign_in(page, manned, "ada", "people")
     page.get_by_role("button", name="Add a person…").click()
     dialog = page.get_by_role("dialog", name="Add a person")
@@ -30,12 +31,13 @@ def test_an_admin_adds_somebody_who_can_sign_in_and_is_kept_out_again(
     dialog.get_by_label("First password").fill("short")
     dialog.get_by_label("Role").select_option("viewer")
     dialog.get_by_role("button", name="Add").click()
-    assert "10 to 200 characters" in dialog.get_by_role("alert").inner_text()
-    assert dialog.get_by_label("Name").input_value() == "nora", "nothing typed is lost"
+    expect(dialog.get_by_role("alert")).to_contain_text("10 to 200 characters")
+    expect(dialog.get_by_label("Name")).to_have_value("nora")  # nothing typed is lost
     dialog.get_by_label("First password").fill(PASSWORD)
     dialog.get_by_role("button", name="Add").click()
     page.locator("[data-user='nora']").wait_for()
     other = browser.new_context()
+    other.set_default_timeout(1e3 * PATIENCE_S)
     tab = other.new_page()
     sign_in(tab, manned, "nora", "people")
     tab.get_by_text("Signed in as nora").wait_for()
@@ -55,7 +57,7 @@ def test_a_token_is_shown_once_works_and_is_refused_once_removed(page: Any, mann
     sign_in(page, manned, "ling", "people")
     page.get_by_role("button", name="Make a token…").click()
     dialog = page.get_by_role("dialog", name="Make a token")
-    assert dialog.get_by_label("Role").locator("option").all_inner_texts() == ["viewer", "pilot"]
+    becomes(page, dialog.get_by_label("Role").locator("option").all_inner_texts, ["viewer", "pilot"])
     dialog.get_by_label("What it is for").fill("nightly download")
     dialog.get_by_role("button", name="Make it").click()
     secret = page.locator("[data-secret]").inner_text()
@@ -73,6 +75,8 @@ def test_a_token_is_shown_once_works_and_is_refused_once_removed(page: Any, mann
 
 def test_an_expired_session_asks_to_sign_in_and_what_was_typed_is_there_again(page: Any, manned: str) -> None:
     """Issue: nothing is lost."""
+    from playwright.sync_api import expect
+
     sign_in(page, manned, "max", "vehicle/1/commands")
     kind(page, "radio-time").click()
     page.get_by_label("time, s").fill("777")
@@ -81,6 +85,4 @@ def test_an_expired_session_asks_to_sign_in_and_what_was_typed_is_there_again(pa
     page.get_by_label("Name").fill("max")
     page.get_by_label("Password").fill(PASSWORD)
     page.get_by_role("button", name="Sign in").click()
-    field = page.get_by_label("time, s")
-    field.wait_for()
-    assert field.input_value() == "777"
+    expect(page.get_by_label("time, s")).to_have_value("777")

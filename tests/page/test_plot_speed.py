@@ -13,7 +13,9 @@ import numpy as np
 import pytest
 
 from stommel.archive import Archive, Batch
+from tests.page.paint import is_too_busy
 from tests.page.past import station
+from tests.page.waiting import at_rest
 from tests.station.speaker import speaker
 
 pytestmark = pytest.mark.timeout(600)
@@ -70,11 +72,13 @@ def test_plots_move_at_thirty_frames_a_second(
     assert drawn["samples"] == SAMPLES
     assert len(drawn["t"]) <= 4000, "reduced by the server"
     page.locator("[data-panel] canvas").first.wait_for()
-    page.wait_for_timeout(1000)
-    # The best of some: other work of this machine can only make frames fewer.
-    best = max(1000.0 / float(np.mean(page.evaluate(MEASURE, [zoom, 1.5]))) for _ in range(5))
+    at_rest(page)
+    best = 0.0
+    for _ in range(8):  # the best of some: other work of this machine can only make frames fewer
+        best = max(best, 1000.0 / float(np.mean(page.evaluate(MEASURE, [zoom, 1.5]))))
+        if best >= FRAMES_PER_S:
+            break
     record_property("frames_per_s", best)
-    load = os.getloadavg()[0]
-    if best < FRAMES_PER_S and load > 2.0 * (os.cpu_count() or 1):
-        pytest.skip(f"{best:.0f} frames/s on a machine that is too busy to tell: load average {load:.0f}")
+    if best < FRAMES_PER_S and is_too_busy():
+        pytest.skip(f"{best:.0f} frames/s on a machine that is too busy to tell")
     assert best >= FRAMES_PER_S

@@ -10,8 +10,8 @@ import httpx
 import pytest
 
 from tests.page.past import GAP, Past
+from tests.page.waiting import PATIENCE_S, becomes, passes, until
 
-pytestmark = pytest.mark.timeout(180)
 DRAWN = """
     () => [...document.querySelectorAll('[data-panel]')].map((place) => place.drawn && {
         begin: place.drawn.begin, end: place.drawn.end, channels: place.drawn.channels,
@@ -35,14 +35,15 @@ class Plots:
         self.rest()
 
     def rest(self) -> None:
-        """Wait until nothing is asked any more and all is drawn."""
-        for _ in range(200):
+        """Wait until nothing is asked any more and all is drawn; a new window rests 250 ms before it asks."""
+        ends = time.monotonic() + PATIENCE_S
+        while True:
             before = len(self.asked)
-            self.page.wait_for_timeout(300)
+            passes(self.page, 260)
             busy = self.page.locator(".busy.on").count()
             if before and before == len(self.asked) and not busy and all(self.page.evaluate(DRAWN)):
                 return
-        pytest.fail("the plots do not come to rest")
+            assert time.monotonic() < ends, "the plots do not come to rest"
 
     def drawn(self) -> list[dict[str, Any]]:
         """What each panel draws, its window and its channels."""
@@ -81,7 +82,7 @@ def test_motion_is_drawn_as_in_the_papers_fig_17(plots: Plots, past: Past, scree
     plots.assert_is_the_archive()
     screenshot("plots-light")
     plots.page.emulate_media(color_scheme="dark")
-    plots.page.wait_for_timeout(300)
+    passes(plots.page, 200)
     screenshot("plots-dark")
 
 
@@ -150,13 +151,12 @@ def test_a_late_answer_to_an_older_window_is_thrown_away(plots: Plots, past: Pas
     plots.page.route("**/series?*", slow)
     plots.page.goto(f"{past.address}/#/vehicle/1/plots?window={first}")
     plots.page.wait_for_selector("[data-panel] canvas")
-    plots.page.wait_for_timeout(500)
-    assert held
+    until(plots.page, lambda: held)
     for _ in range(3):
         plots.page.keyboard.press("ArrowRight")
     plots.rest()
-    held[0].continue_()
-    plots.page.wait_for_timeout(700)
+    held[0].fulfill(response=held[0].fetch())
+    passes(plots.page, 200)
     assert plots.window()[0] == pytest.approx(past.begin + 600 + 3 * 60, abs=0.01)
     plots.assert_is_the_archive()
 
@@ -168,19 +168,24 @@ def test_live_plots_follow_and_show_only_what_the_archive_has(plots: Plots, past
     for k in range(15):
         past.speaker.say("ATTITUDE", time_boot_ms=1000 * k, pitch=math.radians(k), roll=0.0, yaw=1.0)
         time.sleep(0.2)
-    plots.page.wait_for_timeout(1500)
-    begin, end = plots.window()
-    assert begin > first[0] + 2.0
+    until(plots.page, lambda: pitches(plots) >= {float(k) for k in range(15)})
+    until(plots.page, lambda: plots.window()[0] > first[0] + 2.0)
+    until(plots.page, lambda: abs(plots.window()[1] - time.time()) < 5.0)
+    panel = plots.drawn()[1]
+    begin, end = panel["begin"], panel["end"]
     assert end - begin == pytest.approx(600.0)
-    assert end == pytest.approx(time.time(), abs=5.0)
-    shown = [(t, v) for t, v in zip(*plots.drawn()[1]["data"][:2], strict=False) if isinstance(v, int | float)]
+    shown = [(t, v) for t, v in zip(*panel["data"][:2], strict=False) if isinstance(v, int | float)]
     query = f"channels=pitch_deg&begin={begin - 60}&end={end + 60}&method=raw"
     raw = httpx.get(f"{past.address}/api/vehicles/1/series?{query}").json()["channels"]["pitch_deg"]
     kept = dict(zip(raw["t"], raw["value"], strict=True))
     for t, value in shown:
         at = min(kept, key=lambda one: abs(one - t))
         assert (at, kept[at]) == (pytest.approx(t, abs=2e-6, rel=0.0), value), "the archive has no such point"
-    assert {round(v, 3) for _, v in shown} >= {float(k) for k in range(15)}
+
+
+def pitches(plots: Plots) -> set[float]:
+    """Values of the pitch that are drawn."""
+    return {round(v, 3) for v in plots.drawn()[1]["data"][1] if isinstance(v, int | float)}
 
 
 def test_a_lost_socket_leaves_no_hole(plots: Plots, past: Past) -> None:
@@ -190,9 +195,8 @@ def test_a_lost_socket_leaves_no_hole(plots: Plots, past: Past) -> None:
     for k in range(20):
         past.speaker.say("ATTITUDE", time_boot_ms=0, pitch=math.radians(30.0 + k), roll=0.0, yaw=1.0)
         plots.page.wait_for_timeout(200)
-    plots.page.wait_for_timeout(4000)
-    shown = {round(v, 3) for v in plots.drawn()[1]["data"][1] if isinstance(v, int | float)}
-    assert shown >= {30.0 + k for k in range(20)}
+    until(plots.page, lambda: _breaks_once.__dict__["opened"] >= 2)
+    until(plots.page, lambda: pitches(plots) >= {30.0 + k for k in range(20)})
 
 
 def _breaks_once(socket: Any) -> None:
@@ -216,7 +220,6 @@ def test_values_stand_at_the_cursor_in_all_plots(plots: Plots, past: Past) -> No
     plots.open(f"{past.begin}-{past.begin + 3600}")
     box = plots.page.locator("[data-panel=attitude] .u-over").bounding_box()
     plots.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 20)
-    plots.page.wait_for_timeout(200)
     begin, end = plots.window()
     t = begin + (end - begin) / 2
     for index, key in ((0, "ballast_ml"), (1, "pitch_deg"), (3, "depth_m")):
@@ -225,11 +228,16 @@ def test_values_stand_at_the_cursor_in_all_plots(plots: Plots, past: Past) -> No
         pairs = [(at, v) for at, v in zip(panel["data"][0], row, strict=False) if isinstance(v, int | float)]
         wanted = min(pairs, key=lambda pair: abs(pair[0] - t))[1]
         said = plots.page.locator("section.panel").nth(index).locator("output").nth(panel["channels"].index(key))
-        number = float(re.sub(r"[^\d.\-]", "", said.inner_text().replace("\u2212", "-")))
-        assert number == pytest.approx(wanted, abs=2.0)
+        becomes(plots.page, lambda: number_of(said.inner_text()), pytest.approx(wanted, abs=2.0))  # noqa: B023
     lines = plots.page.locator(".u-cursor-x").evaluate_all("all => all.map((one) => one.style.transform)")
     assert len(lines) == 4
     assert len({re.search(r"-?\d+", line).group() for line in lines if line}) == 1  # type: ignore[union-attr]
+
+
+def number_of(said: str) -> float | None:
+    """The number in what stands beside a plot; None as long as there is none."""
+    digits = re.sub(r"[^\d.\-]", "", said.replace("\u2212", "-"))
+    return float(digits) if digits.strip("-.") else None
 
 
 def test_own_choice_is_kept_in_the_address(plots: Plots, past: Past, screenshot: Any) -> None:
@@ -237,8 +245,7 @@ def test_own_choice_is_kept_in_the_address(plots: Plots, past: Past, screenshot:
     plots.page.get_by_label("Find a channel").fill("phase")
     plots.page.get_by_text("phase of the dive").first.click()
     plots.rest()
-    plots.page.wait_for_timeout(500)
-    assert "depth_m%2Cphase" in plots.page.url
+    until(plots.page, lambda: "depth_m%2Cphase" in plots.page.url)
     plots.page.reload()
     plots.page.wait_for_selector("[data-panel] canvas")
     plots.rest()
@@ -257,7 +264,7 @@ def test_an_archive_that_cannot_answer_is_said_and_the_plot_stays(plots: Plots, 
     plots.page.keyboard.press("ArrowRight")
     plots.rest()
     plots.assert_is_the_archive()
-    assert plots.page.get_by_text("The archive is busy").count() == 0
+    plots.page.get_by_text("The archive is busy").wait_for(state="detached")
 
 
 @pytest.mark.parametrize("page", [{"viewport": {"width": 1024, "height": 768}, "has_touch": True}], indirect=True)

@@ -2,16 +2,13 @@
 
 import math
 import re
-import time
-from collections.abc import Callable
 from typing import Any
 
 import httpx
 import pytest
 
 from tests.page.past import GAP, Past, values
-
-pytestmark = pytest.mark.timeout(180)
+from tests.page.waiting import at_rest, becomes, passes, until
 
 
 @pytest.fixture(autouse=True)
@@ -39,14 +36,6 @@ def plots(page: Any) -> None:
     page.locator("[data-panel] canvas").first.wait_for()
 
 
-def until(page: Any, done: Callable[[], object], within: float = 60.0) -> None:
-    """Wait until something is so."""
-    ends = time.monotonic() + within
-    while not done():
-        assert time.monotonic() < ends, "waited in vain"
-        page.wait_for_timeout(100)
-
-
 def states(past: Past) -> list[dict[str, Any]]:
     """Replays that go on."""
     found: list[dict[str, Any]] = httpx.get(f"{past.address}/api/replays").json()
@@ -66,25 +55,27 @@ def depth_at(past: Past, t: float) -> float:
 
 
 def test_a_replay_shows_what_the_archive_has_of_that_time(page: Any, past: Past, screenshot: Any) -> None:
-    begun(page, past, "600")
-    until(page, lambda: states(past)[0]["at"] > past.begin + 1200.0)
+    begun(page, past, "300")
+    until(page, lambda: states(past)[0]["at"] > past.begin + 600.0)
     screenshot("replay")
     page.get_by_role("button", name="Pause").click()
     page.get_by_role("button", name="Go on").wait_for()
     (state,) = states(past)
     assert state["paused"]
     assert past.begin < state["at"] < past.begin + 7200
-    until(page, lambda: abs(depth_told(page) - depth_at(past, state["at"])) < 0.2)
-    page.wait_for_timeout(700)
-    assert states(past)[0]["at"] == state["at"], "while it is paused its time stands still"
+    becomes(page, lambda: depth_told(page), pytest.approx(depth_at(past, state["at"]), abs=0.2))
     plots(page)
-    some = "document.querySelector('[data-panel=path]').drawn?.data[1].some((value) => value !== null)"
-    until(page, lambda: page.evaluate(some))
+    until(page, lambda: newest_drawn(page) > state["at"] - 30.0)
     screenshot("replay-plots")
-    drawn = page.evaluate("document.querySelector('[data-panel=path]').drawn")
-    t = [at for at, value in zip(*drawn["data"], strict=False) if value is not None]
-    assert max(t) <= state["at"] + 1e-3, "nothing is shown that had not happened yet"
-    assert max(t) > state["at"] - 30.0
+    passes(page, 700)
+    assert states(past)[0]["at"] == state["at"], "while it is paused its time stands still"
+    assert newest_drawn(page) <= state["at"] + 1e-3, "nothing is shown that had not happened yet"
+
+
+def newest_drawn(page: Any) -> float:
+    """Time of the newest depth that is drawn."""
+    drawn = page.evaluate("document.querySelector('[data-panel=path]').drawn?.data ?? [[], []]")
+    return max((at for at, value in zip(*drawn, strict=False) if value is not None), default=-math.inf)
 
 
 def test_a_replay_jumps_and_changes_its_speed(page: Any, past: Past) -> None:
@@ -98,18 +89,20 @@ def test_a_replay_jumps_and_changes_its_speed(page: Any, past: Past) -> None:
     until(page, lambda: states(past)[0]["at"] >= past.begin + 3600)
     at = states(past)[0]["at"]
     assert at <= past.begin + 3660
-    until(page, lambda: abs(depth_told(page) - depth_at(past, states(past)[0]["at"])) < 2.0)
+    until(page, lambda: abs(depth_told(page) - depth_at(past, states(past)[0]["at"])) <= 2.0)
     page.get_by_role("combobox", name="Speed").select_option("200")
+    becomes(page, lambda: states(past)[0]["speed"], 200.0)
     until(page, lambda: states(past)[0]["at"] > at + 100.0)
-    assert states(past)[0]["speed"] == 200.0
 
 
 def test_the_end_is_reached_and_begun_again(page: Any, past: Past) -> None:
     begun(page, past, "1000")
     again = page.get_by_role("button", name="From the beginning")
-    again.wait_for(timeout=30_000)
+    again.wait_for(timeout=240_000)
     page.get_by_text("This is the end of the replay").wait_for()
-    until(page, lambda: states(past)[0]["at"] == math.floor(past.begin) + 7200)
+    becomes(page, lambda: states(past)[0]["at"], math.floor(past.begin) + 7200)
+    page.get_by_role("combobox", name="Speed").select_option("1")
+    becomes(page, lambda: states(past)[0]["speed"], 1.0)
     again.click()
     page.get_by_role("button", name="Pause").wait_for()
     assert states(past)[0]["at"] < past.begin + 7000
@@ -126,9 +119,12 @@ def test_live_values_are_untouched_by_a_replay_at_full_speed(page: Any, past: Pa
     for k in range(10):
         past.speaker.say("ATTITUDE", time_boot_ms=0, pitch=math.radians(70.0 + k), roll=0.0, yaw=1.0)
         page.wait_for_timeout(200)
-    other.wait_for_timeout(1500)
-    row = other.evaluate("document.querySelector('[data-panel=attitude]').drawn.data[1]")
-    assert {round(value, 3) for value in row if value} >= {70.0 + k for k in range(10)}
+
+    def shown() -> set[float]:
+        row = other.evaluate("document.querySelector('[data-panel=attitude]').drawn?.data[1] ?? []")
+        return {round(value, 3) for value in row if value}
+
+    until(other, lambda: shown() >= {70.0 + k for k in range(10)})
     assert lost == []
     other.close()
 
@@ -138,7 +134,7 @@ def test_leaving_the_view_ends_the_replay(page: Any, past: Past) -> None:
     assert len(states(past)) == 1
     page.goto(f"{past.address}/#/vehicle/1/log")
     page.get_by_role("textbox", name="Note").wait_for()
-    until(page, lambda: states(past) == [])
+    becomes(page, lambda: states(past), [])
 
 
 def test_a_stretch_that_cannot_be_is_refused(page: Any, past: Past) -> None:
@@ -155,9 +151,9 @@ def test_nobody_is_kept_from_replays(page: Any, past: Past, serious: Any, screen
     """axe-core: no serious finding, before and while it runs."""
     page.goto(f"{past.address}/#/vehicle/1/replay")
     page.get_by_role("button", name="Start the replay").wait_for()
-    page.wait_for_timeout(500)
+    at_rest(page)
     assert serious() == []
-    begun(page, past).wait_for_timeout(1500)
+    at_rest(begun(page, past))
     screenshot("replay-tablet-dark")
     assert serious() == []
     plots(page)

@@ -10,11 +10,12 @@ import os
 from typing import Any, NamedTuple
 
 from tests.page.test_every_view import STATION_VIEWS, VEHICLE_VIEWS, address_of
+from tests.page.waiting import at_rest, passes
 
 CHANGES = int(os.environ.get("STOMMEL_PAGE_SOAK", "28"))
 WHOLE = CHANGES >= 200
-STAY_MS = 2400 if WHOLE else 700
-"""In a view: 200 times 2.4 s are 8 min, 8 h at 60 times real time."""
+STAY_MS = 2400 if WHOLE else 0
+"""In a view, once it is drawn: 200 times 2.4 s are 8 min, 8 h at 60 times real time."""
 ROUNDS_BEFORE = 5
 """Every view is opened so often before the first measurement: code is fetched, and compiled as it gets warm."""
 ALLOWED = 1.05
@@ -54,12 +55,12 @@ def held(client: Any) -> float:
 
 def used(page: Any) -> Use:
     """Measure when no request is under way; what waits for an answer is still needed. Lost contexts do not count."""
-    page.wait_for_load_state("networkidle")
+    at_rest(page)
     page.evaluate("window.contexts = window.contexts.filter((one) => !one.isContextLost())")
     client = page.context.new_cdp_session(page)
     for _ in range(4):
         client.send("HeapProfiler.collectGarbage")
-        page.wait_for_timeout(200)
+        passes(page, 200)
     counters = client.send("Memory.getDOMCounters")
     use = Use(held(client), counters["nodes"], counters["jsEventListeners"], page.evaluate("window.contexts.length"))
     client.detach()
@@ -75,10 +76,11 @@ def test_view_changes_leave_nothing_behind(page: Any, station: str, record_prope
 
     def look(address: str, stay: int) -> None:
         page.evaluate("(address) => { location.hash = address; }", address)
-        page.wait_for_timeout(stay)
+        at_rest(page)
+        passes(page, stay)
 
     for address in views * ROUNDS_BEFORE:
-        look(address, 900 if WHOLE else 350)
+        look(address, 900 if WHOLE else 0)
     look("#/vehicle/1", 1500)
     before = used(page)
     for address in itertools.islice(itertools.cycle(views), CHANGES):

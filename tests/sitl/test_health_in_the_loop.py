@@ -9,8 +9,8 @@ import pytest
 from stommel.messages.codec import Encoder
 from stommel.messages.database import database_hash, message_named
 from stommel.messages.frames import Frame
+from stommel.messages.log.reader import read_log
 from stommel.onboard.coordination.health import CONDITIONS, SOURCES, Condition, SourceHealth
-from stommel.onboard.coordination.logbook.reader import read_log
 from stommel.onboard.coordination.sources import HEALTH_EVERY
 from stommel.sitl import system as loop
 from stommel.sitl.can_bus import SimulatedBus

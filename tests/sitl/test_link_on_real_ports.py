@@ -43,7 +43,7 @@ def running(log: Path, *arguments: object) -> Iterator[subprocess.Popen[bytes]]:
             yield process
         finally:
             process.terminate()
-            process.wait(20.0)
+            process.wait(120.0)
 
 
 def said(log: Path, pattern: str) -> str:

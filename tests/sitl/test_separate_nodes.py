@@ -5,7 +5,6 @@ Oracle: the system's list of processes, and the table of failsafes for what a si
 
 import os
 import signal
-import time
 from pathlib import Path
 
 import pytest
@@ -71,9 +70,8 @@ def test_a_node_that_hangs_counts_as_dead_and_is_ended(monkeypatch: pytest.Monke
         system.step()
         assert said
         assert not is_alive(pid)
-        began = time.monotonic()
-        system.step()
-        assert time.monotonic() - began < 0.4  # it is waited for once only
+        monkeypatch.setattr(separate_nodes, "ANSWERS_WITHIN", 1e5)
+        system.step()  # it is waited for once only: this would last a day
 
 
 def test_nodes_end_with_an_error_of_ours() -> None:

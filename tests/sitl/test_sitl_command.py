@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 from stommel.cli.status import INTERRUPTED
-from stommel.onboard.coordination.logbook.reader import read_log
+from stommel.messages.log.reader import read_log
 from stommel.simulation.scenario.shipped import mission_path
 from tests.support.command import Command
 

@@ -1,23 +1,14 @@
 """A vehicle that says what a test wants, over TCP, and keeps what it hears."""
 
 import socket
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 from stommel.link.frames import FrameSplitter, RawFrame, frame_bytes
 from stommel.messages.mavlink import Fields, message_named
+from tests.support.waiting import WITHIN, until
 
-WITHIN = 15.0
-"""Longest that a test waits [s]; it is only reached when something is wrong."""
-
-
-def until(done: Callable[[], object], within: float = WITHIN) -> None:
-    """Wait until something is so."""
-    ends = time.monotonic() + within
-    while not done():
-        assert time.monotonic() < ends, "waited in vain"
-        time.sleep(0.01)
+__all__ = ["Speaker", "speaker", "until"]
 
 
 class Speaker:

@@ -12,14 +12,13 @@ import json
 import os
 import random
 import re
-import signal
 import sqlite3
-import subprocess
 import sys
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
+from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 import httpx
@@ -30,6 +29,7 @@ from stommel.archive import Archive
 from stommel.link.frames import HEAD
 from stommel.messages.mavlink import message_named
 from tests.station.speaker import Speaker, speaker
+from tests.support.lives import command_line, life
 
 KILLS = int(os.environ.get("STOMMEL_STATION_KILLS", "20"))
 LONGEST = 1.2
@@ -38,28 +38,18 @@ STATE = message_named("GLIDER_STATE")
 
 
 @contextmanager
-def server(folder: Path, link: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
+def server(folder: Path, link: str) -> Iterator[tuple[BaseProcess, str]]:
     """The whole server in a process of its own, and its page."""
-    command = [
-        sys.executable, "-c", "from stommel.cli import main; main()", "station", "serve", "--folder", str(folder),
-        "--link", link, "--unsigned", "--port", "0",
-    ]  # fmt: skip
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    try:
-        assert process.stdout is not None
+    arguments = ("station", "serve", "--folder", str(folder), "--link", link, "--unsigned", "--port", "0")
+    with life(command_line, *arguments) as (process, told):
         said = []
-        for line in process.stdout:
+        for line in told:
             said.append(line)
             if found := re.search(r"http://(\S+:\d+)", line):
                 break
         else:
             raise AssertionError("".join(said))
         yield process, found[1]
-    finally:
-        process.kill()
-        process.wait()
-        assert process.stdout is not None
-        process.stdout.close()
 
 
 class Load:
@@ -106,7 +96,7 @@ class Load:
 
     def command(self, page: str, ends: threading.Event) -> None:
         """Give commands until the server dies."""
-        with httpx.Client(base_url=f"http://{page}", timeout=5.0) as client:
+        with httpx.Client(base_url=f"http://{page}", timeout=60.0) as client:
             while not ends.is_set():
                 try:
                     answer = client.post("/api/vehicles/1/commands", json={"name": "hold", "valid_for_s": 3600})
@@ -117,7 +107,7 @@ class Load:
                 time.sleep(0.03)
 
 
-def lived(load: Load, page: str, process: subprocess.Popen[str], longest: float) -> None:
+def lived(load: Load, page: str, process: BaseProcess, longest: float) -> None:
     """One life of the server, and its death."""
     ends = threading.Event()
     commanding = threading.Thread(target=load.command, args=(page, ends))
@@ -134,8 +124,8 @@ def lived(load: Load, page: str, process: subprocess.Popen[str], longest: float)
                 if load.kept > before:
                     before, dies_at = sys.maxsize, time.monotonic() + longest
                 time.sleep(0.02)
-            process.send_signal(signal.SIGKILL)
-            process.wait()
+            process.kill()
+            process.join()
             load.watch(socket)
     except (OSError, WebSocketException):
         pass  # it is dead

@@ -90,7 +90,7 @@ def handshake(address: str, **headers: str) -> int:
         "Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
         "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",
     } | headers  # fmt: skip
-    connection = HTTPConnection(place.host, place.port, timeout=10.0)
+    connection = HTTPConnection(place.host, place.port, timeout=60.0)
     try:
         connection.request("GET", "/api/live", headers=asked)
         return connection.getresponse().status
@@ -100,7 +100,7 @@ def handshake(address: str, **headers: str) -> int:
 
 def logged_in(address: str, name: str, password: str = PASSWORD) -> httpx.Client:
     """Somebody with a session."""
-    client = httpx.Client(base_url=address)
+    client = httpx.Client(base_url=address, timeout=60.0)
     answer = client.post("/api/session", json={"name": name, "password": password})
     assert answer.status_code == 200, answer.text
     return client

@@ -7,11 +7,17 @@ export class ApiError extends Error {
   readonly refusal: Refusal;
 
   constructor(status: number, refusal: Refusal) {
-    super(refusal.allowed ? `${refusal.reason} Allowed: ${refusal.allowed}.` : refusal.reason);
+    super(sentenceOf(refusal));
     this.name = 'ApiError';
     this.status = status;
     this.refusal = refusal;
   }
+}
+
+/** The reason, and what would be allowed unless the reason says so itself. */
+function sentenceOf({ reason, allowed }: Refusal): string {
+  if (!allowed || reason.includes(allowed)) return reason;
+  return /[.!?]$/.test(reason) ? `${reason} Allowed: ${allowed}.` : `${reason}; allowed: ${allowed}.`;
 }
 
 export type Query = Record<string, string | number | boolean | null | undefined>;
@@ -40,10 +46,6 @@ export function address(path: string, query: Query = {}): string {
 function refusal(status: number, body: unknown): Refusal {
   const detail = (body as { detail?: unknown } | null)?.detail;
   if (typeof detail === 'string') return { reason: detail };
-  if (Array.isArray(detail)) {
-    const first = detail[0] as { loc?: unknown[]; msg?: string; input?: unknown } | undefined;
-    return { reason: `${(first?.loc ?? []).slice(1).join('.')}: ${first?.msg ?? 'not allowed'}`, value: first?.input };
-  }
   if (detail && typeof detail === 'object' && 'reason' in detail) return detail as Refusal;
   return { reason: `The station answered ${status}, without a reason.` };
 }

@@ -1,11 +1,11 @@
 // The live socket: comes back by itself, and takes its subscriptions with it.
 
 import { clock } from './clock.svelte';
-import type { EventKind, StationEvent, VehicleKey, VehicleSummary } from './types';
+import type { EventKind, LiveMessage, LiveRequest, StationEvent, VehicleKey, VehicleSummary } from './types';
 
 export type LinkState = 'connecting' | 'open' | 'lost';
-export type Values = Record<string, [number, number]>;
-export type Samples = Record<string, [number[], number[]]>;
+export type Values = Extract<LiveMessage, { type: 'values' }>['values'];
+export type Samples = Extract<LiveMessage, { type: 'samples' }>['samples'];
 
 export interface Listener {
   values?: (values: Values, now: number) => void;
@@ -22,21 +22,6 @@ interface Subscription {
   every: boolean;
   listener: Listener;
   began: boolean;
-}
-
-interface Message {
-  type: string;
-  id?: string;
-  vehicle?: VehicleKey;
-  vehicles?: VehicleSummary[];
-  now?: number;
-  from?: number;
-  values?: Values;
-  samples?: Samples;
-  summary?: VehicleSummary;
-  kind?: EventKind;
-  data?: Record<string, unknown>;
-  reason?: string;
 }
 
 const FIRST_WAIT_MS = 250;
@@ -95,12 +80,13 @@ class Live {
     };
   }
 
-  /** Calls back on each event of a kind, or of all with '*'. */
-  on(kind: EventKind | '*', handler: (event: StationEvent) => void): () => void {
+  /** Calls back on each event of a kind. */
+  on<Kind extends EventKind>(kind: Kind, handler: (event: Extract<StationEvent, { kind: Kind }>) => void): () => void {
     const set = this.handlers.get(kind) ?? new Set();
-    set.add(handler);
+    const known = handler as (event: StationEvent) => void;
+    set.add(known);
     this.handlers.set(kind, set);
-    return () => set.delete(handler);
+    return () => set.delete(known);
   }
 
   /** Calls back whenever the station greets, also after a loss: the clock is known then, and lists that grow by events are to be asked for again. */
@@ -163,7 +149,7 @@ class Live {
     subscription.began = this.send({ type: 'subscribe', id, vehicle, channels, every }) || subscription.began;
   }
 
-  private send(message: object): boolean {
+  private send(message: LiveRequest): boolean {
     if (this.socket?.readyState !== WebSocket.OPEN) return false;
     this.socket.send(JSON.stringify(message));
     return true;
@@ -171,21 +157,22 @@ class Live {
 
   private take(text: string): void {
     this.listen();
-    const message = JSON.parse(text) as Message;
-    if (message.vehicle !== undefined && message.now !== undefined) clock.tell(message.vehicle, message.now);
-    const listener = message.id === undefined ? undefined : this.subscriptions.get(message.id)?.listener;
-    if (message.type === 'values') listener?.values?.(message.values ?? {}, message.now ?? 0);
-    else if (message.type === 'samples') listener?.samples?.(message.samples ?? {}, message.now ?? 0);
-    else if (message.type === 'gap') listener?.gap?.(message.from);
-    else if (message.type === 'error') this.refused(message, listener);
-    else if (message.type === 'hello') this.greet(message.vehicles ?? []);
-    else if (message.type === 'summary' && message.summary) this.put(message.summary);
-    else if (message.type === 'event' && message.kind) this.tell(message);
+    const message = JSON.parse(text) as LiveMessage;
+    if ('vehicle' in message && message.vehicle !== null && 'now' in message) clock.tell(message.vehicle, message.now);
+    const listener = 'id' in message ? this.subscriptions.get(message.id)?.listener : undefined;
+    if (message.type === 'values') listener?.values?.(message.values, message.now);
+    else if (message.type === 'samples') listener?.samples?.(message.samples, message.now);
+    else if (message.type === 'gap') listener?.gap?.('from' in message ? message.from : undefined);
+    else if (message.type === 'error') this.refused(message.id, message.reason);
+    else if (message.type === 'hello') this.greet(message.vehicles);
+    else if (message.type === 'summary') this.put(message.summary);
+    else if (message.type === 'event') this.handlers.get(message.kind)?.forEach((handler) => handler(message));
   }
 
-  private refused(message: Message, listener: Listener | undefined): void {
-    if (message.id !== undefined) this.subscriptions.delete(message.id);
-    listener?.error?.(message.reason ?? 'The station refused this subscription.');
+  private refused(id: string, reason: string): void {
+    const listener = this.subscriptions.get(id)?.listener;
+    this.subscriptions.delete(id);
+    listener?.error?.(reason);
   }
 
   private greet(vehicles: VehicleSummary[]): void {
@@ -196,16 +183,6 @@ class Live {
     }
     this.summaries = summaries;
     this.whenOpen.forEach((handler) => handler());
-  }
-
-  private tell(message: Message): void {
-    const event: StationEvent = {
-      kind: message.kind as EventKind,
-      vehicle: message.vehicle ?? null,
-      data: message.data ?? {},
-    };
-    this.handlers.get(event.kind)?.forEach((handler) => handler(event));
-    this.handlers.get('*')?.forEach((handler) => handler(event));
   }
 }
 

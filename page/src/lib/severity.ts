@@ -11,3 +11,8 @@ export function loudest(severities: readonly string[]): Tone | '' {
   const tones = severities.map(toneOf);
   return tones.includes('warning') ? 'warning' : tones.includes('caution') ? 'caution' : tones.length ? 'accent' : '';
 }
+
+/** What tells two alarms apart, also while the archive has not taken them and they have no number. */
+export function identityOf(alarm: { vehicle: number | null; key: string; raised: number }): string {
+  return `${alarm.vehicle} ${alarm.key} ${alarm.raised}`;
+}

@@ -1,7 +1,8 @@
 // How a channel's number is shown: words for states, per cent for shares, degrees and minutes for places.
 
 import type { Channel } from './types';
-import { duration, latitude, longitude } from './units';
+import { readAround } from './turns';
+import { digitsFor, duration, latitude, longitude } from './units';
 
 export interface Shown {
   value: number | null;
@@ -14,7 +15,7 @@ export function shown(channel: Channel, value: number | null | undefined): Shown
   const words = wordsOf(channel, value);
   if (words !== undefined) return { value, unit: '', words };
   if (channel.key.endsWith('_share')) return { value: value * 100, unit: '%' };
-  return { value, unit: channel.unit };
+  return { value: readAround(value, channel, digitsFor(value, channel.unit)), unit: channel.unit };
 }
 
 function wordsOf(channel: Channel, value: number): string | undefined {

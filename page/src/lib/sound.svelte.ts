@@ -1,6 +1,7 @@
 // The sound of alarms: a few tones when one is raised, again while a critical one waits for somebody.
 
 import { live } from './live.svelte';
+import { identityOf } from './severity';
 import type { AlarmRow } from './types';
 
 const KEY = 'stommel-sound';
@@ -28,14 +29,14 @@ class Sound {
   /** How often it has sounded since the page was opened. */
   played = $state(0);
   private context: AudioContext | undefined;
-  private waiting = new Map<number, string>();
+  private waiting = new Map<string, string>();
   private timer: ReturnType<typeof setInterval> | undefined;
   private unlisten: (() => void) | undefined;
 
   /** Listens to the alarms of all vehicles until `stop`. */
   start(): void {
     if (this.unlisten) return;
-    this.unlisten = live.on('alarm', (event) => this.hear(event.data as unknown as AlarmRow));
+    this.unlisten = live.on('alarm', (event) => this.hear(event.data));
     this.timer = setInterval(() => this.again(), AGAIN_MS);
     window.addEventListener('pointerdown', this.touched);
     window.addEventListener('keydown', this.touched);
@@ -78,11 +79,11 @@ class Sound {
   private hear(alarm: AlarmRow): void {
     const isOver = alarm.acknowledged !== null || alarm.cleared !== null;
     if (isOver) {
-      this.waiting.delete(alarm.id);
+      this.waiting.delete(identityOf(alarm));
       return;
     }
-    const isNew = !this.waiting.has(alarm.id);
-    this.waiting.set(alarm.id, alarm.severity);
+    const isNew = !this.waiting.has(identityOf(alarm));
+    this.waiting.set(identityOf(alarm), alarm.severity);
     if (this.isOn && isNew) this.play(alarm.severity);
   }
 

@@ -18,6 +18,9 @@ export class VehicleInfo {
     live.onOpen(() => {
       if (!this.loaded) void this.load();
     });
+    live.on('limit', (event) => {
+      if (event.vehicle === vehicle) void this.load();
+    });
   }
 
   channel(key: string): Channel | undefined {

@@ -150,6 +150,7 @@ class Archive:
         points: int = 2000,
         method: str = "minmax",
         period: float | None = None,
+        turn: float | None = None,
     ) -> Series:
         """The samples of a channel from `begin` to `end`, reduced to about `points`, gaps as NaN.
 
@@ -165,13 +166,15 @@ class Archive:
             'minmax' keeps the lowest and highest of each bucket, 'lttb' the shape, 'raw' everything.
         period
             Usual time between samples [s]; taken from the samples if left out.
+        turn
+            After which values begin anew, such as 360 of a heading; they do not if left out.
 
         Raises
         ------
         ArchiveRequestError
             A value is none that is allowed, or there is too much for 'raw'.
         """
-        window = window_of(begin, end, points, method, period)
+        window = window_of(begin, end, points, method, period, turn)
         with self.reading() as connection:
             number = connection.execute(select(channels.c.id).where(channels.c.key == key)).scalar()
             return read_series(ChannelReader(connection, vehicle, -1 if number is None else number, key), window)

@@ -137,6 +137,6 @@ def _frame(row: Row[Any]) -> StoredFrame:
 
 def _dive(row: Row[Any]) -> DiveRow:
     fields = dict(row._mapping)
-    del fields["vehicle_id"]
+    del fields["vehicle_id"], fields["log_id"]
     begin_us, end_us = fields.pop("t_begin_us"), fields.pop("t_end_us")
     return DiveRow(t_begin=seconds(begin_us), t_end=None if end_us is None else seconds(end_us), **fields)

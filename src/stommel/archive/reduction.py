@@ -1,6 +1,6 @@
 """Fewer points that draw the same curve: pure functions on arrays of time [us] and value."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -53,6 +53,11 @@ def largest_triangles(curve: Curve, points: int, gaps: Places) -> Places:
     lttb: Any = LTTBDownsampler
     found: Places = lttb().downsample(curve.t_us, curve.value, n_out=points)
     return np.unique(np.concatenate([found.astype(np.intp), _edges(curve, gaps)]))
+
+
+def unwound(curve: Curve, turn: float) -> Curve:
+    """The curve without jumps where values begin anew after a turn: 359 and 1 deg are two apart."""
+    return replace(curve, value=np.unwrap(curve.value, period=turn))
 
 
 def with_gaps(curve: Curve, kept: Places, gaps: Places) -> tuple[Times, Values]:

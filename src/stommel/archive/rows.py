@@ -62,3 +62,5 @@ class Batch(NamedTuple):
     """Time, severity, words."""
     dives: Sequence[DiveRow] = ()
     ctd: Sequence[CtdRow] = ()
+    log: int | None = None
+    """Number of the log that it is from; None if it came by radio."""

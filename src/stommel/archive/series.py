@@ -17,6 +17,7 @@ from stommel.archive.reduction import (
     gaps_of,
     largest_triangles,
     low_and_high,
+    unwound,
     with_gaps,
 )
 from stommel.archive.times import microseconds
@@ -55,6 +56,8 @@ class Window:
     points: int
     method: Method
     period_us: float | None
+    turn: float | None = None
+    """After which values begin anew, as of a heading."""
 
     @property
     def width_us(self) -> int:
@@ -62,7 +65,9 @@ class Window:
         return ceil((self.end_us - self.begin_us + 1) / (self.points // 2))
 
 
-def window_of(begin: float, end: float, points: int, method: str, period: float | None) -> Window:
+def window_of(
+    begin: float, end: float, points: int, method: str, period: float | None, turn: float | None = None
+) -> Window:
     """The window that somebody asks for, in seconds.
 
     Raises
@@ -79,7 +84,8 @@ def window_of(begin: float, end: float, points: int, method: str, period: float 
         raise ArchiveRequestError(f"no such reduction: {method!r}; allowed are {', '.join(get_args(Method))}")
     if period is not None and not (isfinite(period) and 0.0 < period <= LONGEST_PERIOD):
         raise ArchiveRequestError(f"a period of {period!r} s; allowed is more than 0, to {LONGEST_PERIOD:.0f}")
-    return Window(begin_us, end_us, points, method, None if period is None else period * 1e6)  # type: ignore[arg-type]
+    period_us = None if period is None else period * 1e6
+    return Window(begin_us, end_us, points, method, period_us, turn)  # type: ignore[arg-type]
 
 
 def read_series(reader: ChannelReader, window: Window) -> Series:
@@ -87,7 +93,8 @@ def read_series(reader: ChannelReader, window: Window) -> Series:
 
     A gap is longer than `GAP_PERIODS` periods, and than one bucket if the samples were reduced: a shorter one could
     not be seen. Points beside gaps are kept, so at most `points` and three more for each gap are given, and both ends.
-    Each point is a sample, and the lowest and highest of each bucket are there.
+    Each point is a sample, and the lowest and highest of each bucket are there: of values that begin anew after a turn,
+    those where it is furthest to either side. A cell knows no more of them than its ends where they begin anew in it.
 
     Raises
     ------
@@ -101,9 +108,10 @@ def read_series(reader: ChannelReader, window: Window) -> Series:
     if curve.samples <= window.points:
         return _whole(reader, window) if level else _unreduced(curve, window)
     gaps = gaps_of(curve.t_us, max(_shortest_gap(curve, window), width_us))
+    shape = curve if window.turn is None else unwound(curve, window.turn)
     if window.method == "lttb":
-        return _series(curve, largest_triangles(curve, window.points, gaps), gaps)
-    return _series(curve, low_and_high(curve, width_us, gaps), gaps)
+        return _series(curve, largest_triangles(shape, window.points, gaps), gaps)
+    return _series(curve, low_and_high(shape, width_us, gaps), gaps)
 
 
 def _level(reader: ChannelReader, window: Window) -> tuple[int, int]:

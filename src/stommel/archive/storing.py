@@ -4,20 +4,19 @@ import math
 import time
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 from sqlalchemy import Connection
 
 from stommel.archive.cells import Point, keep_up
-from stommel.archive.rows import Batch, CtdRow, DiveRow, FrameRow
-from stommel.archive.schema import ctd, dives, frames, samples, texts, vehicles
+from stommel.archive.ctd_storing import write_ctd
+from stommel.archive.dive_storing import write_dives
+from stommel.archive.rows import Batch, FrameRow
+from stommel.archive.schema import frames, samples, texts, vehicles
 from stommel.archive.times import is_time, microseconds
 from stommel.archive.upserting import insert_rows
 
 _FRAME = ("vehicle_id", "t_us", "received_us", *FrameRow._fields[1:])
 _TEXT = ("vehicle_id", "t_us", "severity", "words")
-_DIVE = ("vehicle_id", "dive", "t_begin_us", "t_end_us", *DiveRow._fields[3:])
-_CTD = ("vehicle_id", "t_us", *CtdRow._fields[1:])
 
 
 def write_batch(
@@ -49,10 +48,10 @@ def write_batch(
     _write_samples(connection, vehicle, batch.samples, numbers_of)
     text_rows = [(vehicle, microseconds(t), severity, _storable(words)) for t, severity, words in batch.texts]
     insert_rows(connection, texts, _TEXT, text_rows)
-    dive_rows = {(row.dive, microseconds(row.t_begin)): _dive(vehicle, row) for row in batch.dives}
-    insert_rows(connection, dives, _DIVE, list(dive_rows.values()), "replace")
-    ctd_rows = {microseconds(row.t): (vehicle, microseconds(row.t), *row[1:]) for row in batch.ctd}
-    insert_rows(connection, ctd, _CTD, list(ctd_rows.values()), "replace")
+    if batch.dives:
+        write_dives(connection, vehicle, batch.dives, batch.log)
+    if batch.ctd:
+        write_ctd(connection, vehicle, batch.ctd, batch.log)
 
 
 def _write_samples(
@@ -79,8 +78,3 @@ def _write_samples(
 def _storable(words: str) -> str:
     """Words without what PostgreSQL does not take: the character 0, halves of pairs."""
     return words.replace("\0", "").encode("utf-8", "replace").decode()
-
-
-def _dive(vehicle: int, row: DiveRow) -> tuple[Any, ...]:
-    end_us = None if row.t_end is None else microseconds(row.t_end)
-    return (vehicle, row.dive, microseconds(row.t_begin), end_us, *row[3:])

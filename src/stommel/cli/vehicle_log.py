@@ -14,7 +14,7 @@ from stommel.files.nearest import did_you_mean
 from stommel.files.units import counted
 
 if TYPE_CHECKING:
-    from stommel.onboard.coordination.logbook.reader import LogContents, ReadKind
+    from stommel.messages.log.reader import LogContents, ReadKind
 
 _MOST_MIB = 256
 _SHOWN = 20
@@ -42,7 +42,7 @@ def log(
     Example: stommel vehicle log 00003-000001-essential.log --kind navigation
     """
     from stommel.files.opening import read_bytes
-    from stommel.onboard.coordination.logbook.reader import read_log
+    from stommel.messages.log.reader import read_log
 
     data = read_bytes(Path(file), _MOST_MIB)
     contents = read_log(data, file, resynchronise=salvage)

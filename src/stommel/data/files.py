@@ -2,10 +2,11 @@
 
 import csv
 import io
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+import netCDF4
 import numpy as np
 import xarray as xr
 
@@ -23,6 +24,8 @@ TIME = {
 }
 _FILL = 9.969209968386869e36
 """Of NetCDF for numbers that are not there."""
+_CHUNK = 16_384
+"""Samples that are compressed together in a file that grows."""
 _ROWS = 5000
 """Lines that are made at a time."""
 
@@ -63,6 +66,34 @@ def write_netcdf(samples: xr.Dataset, path: Path) -> None:
         samples.to_netcdf(made, format="NETCDF4", engine="netcdf4", encoding=_encoding(samples))
 
 
+def write_netcdf_pieces(pieces: Iterator[xr.Dataset], path: Path) -> int:
+    """Write a data set that comes in pieces along `obs`, of which one is held at a time; how many samples.
+
+    Parameters
+    ----------
+    pieces
+        From `as_trajectory`, at least one, each with the same variables.
+    path
+        Is written whole or not at all.
+    """
+    with whole_file(path) as made:
+        first = next(pieces)
+        encoding = _encoding(first)
+        for name, variable in first.variables.items():
+            if variable.dims == ("obs",):
+                encoding.setdefault(name, {})["chunksizes"] = (_CHUNK,)
+        first.to_netcdf(made, format="NETCDF4", engine="netcdf4", encoding=encoding, unlimited_dims=["obs"])
+        count = first.sizes["obs"]
+        with netCDF4.Dataset(made, "a") as file:
+            for piece in pieces:
+                end = count + piece.sizes["obs"]
+                for name, variable in piece.variables.items():
+                    if variable.dims == ("obs",):
+                        file[str(name)][count:end] = np.ma.masked_invalid(variable.values)
+                count = end
+    return count
+
+
 def _encoding(samples: xr.Dataset) -> dict[Any, dict[str, Any]]:
     encoding: dict[Any, dict[str, Any]] = {}
     for name, variable in samples.variables.items():
@@ -74,21 +105,33 @@ def _encoding(samples: xr.Dataset) -> dict[Any, dict[str, Any]]:
     return encoding
 
 
-def csv_lines(samples: xr.Dataset) -> Iterator[str]:
+def csv_lines(samples: xr.Dataset, *, head: bool = True) -> Iterator[str]:
     """CSV in pieces: a head of names with units, then a line a sample; an empty cell is what is not known."""
     names = [name for name, variable in samples.variables.items() if variable.ndim == 1]
     names.sort(key=lambda name: name != "time")
-    yield _written([[_title(str(name), samples[name].attrs) for name in names]])
+    if head:
+        yield _written([[_title(str(name), samples[name].attrs) for name in names]])
     columns = [samples[name].values for name in names]
     for begin in range(0, samples["time"].size, _ROWS):
         part = [column[begin : begin + _ROWS] for column in columns]
         yield _written(zip(*map(_cells, names, part), strict=True))
 
 
+def csv_of_pieces(pieces: Iterable[xr.Dataset]) -> Iterator[str]:
+    """CSV of a data set that comes in pieces, each with the same variables: one head, then all lines."""
+    for number, piece in enumerate(pieces):
+        yield from csv_lines(piece, head=number == 0)
+
+
 def write_csv(samples: xr.Dataset, path: Path) -> None:
     """Write `csv_lines`; whole or not at all."""
+    write_csv_pieces([samples], path)
+
+
+def write_csv_pieces(pieces: Iterable[xr.Dataset], path: Path) -> None:
+    """Write `csv_of_pieces`; whole or not at all."""
     with whole_file(path) as made, made.open("w", encoding="utf-8", newline="") as file:
-        file.writelines(csv_lines(samples))
+        file.writelines(csv_of_pieces(pieces))
 
 
 def _title(name: str, attributes: Mapping[str, Any]) -> str:

@@ -1,5 +1,6 @@
 """Samples on a regular grid: means in cells of depth, by profile or by time; an empty cell stays empty."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -65,6 +66,21 @@ def section(samples: xr.Dataset, variable: str, *, cell_m: float = 1.0, deepest_
         },
         coords={"depth": ("depth", (np.arange(cells) + 0.5) * cell_m, BY_NAME["depth"].attributes)},
     )
+
+
+def joined(sections: Sequence[xr.Dataset]) -> xr.Dataset:
+    """Return sections of the same cells side by side, in their order, down to the deepest of them.
+
+    Parameters
+    ----------
+    sections
+        From `section`, at least one, of profiles of which none is in two.
+    """
+    if len(sections) == 1:
+        return sections[0]
+    depth = max((each["depth"] for each in sections), key=lambda found: found.size)
+    padded = [each.reindex(depth=depth, fill_value={"samples_in_cell": 0}) for each in sections]
+    return xr.concat(padded, "profile", combine_attrs="override")
 
 
 def _of_profiles(samples: xr.Dataset, number: NDArray[np.int32], profiles: NDArray[np.int32]) -> dict[str, tuple]:  # type: ignore[type-arg]

@@ -6,6 +6,7 @@ off: a profile begins when the vehicle leaves the band of `edge` about the one t
 to the band about the other.
 """
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -99,30 +100,55 @@ def profiles_of(
     ValueError
         The arrays are not of one length, or a threshold is impossible.
     """
+    ways = ways_of(time, pressure, least_change=least_change, edge=edge, longest_gap=longest_gap)
+    return [way.profile for way in ways]
+
+
+class Way(NamedTuple):
+    """A profile and the turning points about it."""
+
+    profile: Profile
+    turned: int
+    """Index of the turning point at which its way begins: detection that begins anew there finds the same."""
+    is_settled: bool
+    """Whether no later sample can change it."""
+
+
+def ways_of(
+    time: NDArray[np.float64],
+    pressure: NDArray[np.float64],
+    *,
+    least_change: float = LEAST_CHANGE,
+    edge: float = EDGE,
+    longest_gap: float = LONGEST_GAP,
+) -> list[Way]:
+    """Return the profiles with what is needed to go on from them when more samples come; as `profiles_of`."""
     if time.shape != pressure.shape or time.ndim != 1:
         raise ValueError(f"time {time.shape} and pressure {pressure.shape} must be of one length")
     if not (0.0 < 2.0 * edge <= least_change and longest_gap > 0.0):
         raise ValueError(f"edge = {edge:g}, least_change = {least_change:g}: 0 < 2 edge <= least_change is wanted")
     used = np.flatnonzero(good_stamps(time) & np.isfinite(pressure))
-    breaks = np.flatnonzero(np.diff(time[used]) > longest_gap) + 1
-    found: list[Profile] = []
-    for part in np.split(used, breaks):
-        for first, last in _between_turns(pressure[part], least_change, edge):
+    parts = np.split(used, np.flatnonzero(np.diff(time[used]) > longest_gap) + 1)
+    found: list[Way] = []
+    for part in parts:
+        turns = turning_points(pressure[part], least_change)
+        ends = turns[-1:] if part is parts[-1] else []  # the last turning point of all may still move
+        for turned, end, first, last in _between_turns(pressure[part], turns, edge):
             direction = DOWN if pressure[part[last]] > pressure[part[first]] else UP
-            found.append(Profile(len(found), direction, int(part[first]), int(part[last])))
+            profile = Profile(len(found), direction, int(part[first]), int(part[last]))
+            found.append(Way(profile, int(part[turned]), end not in ends))
     return found
 
 
-def _between_turns(p: NDArray[np.float64], least_change: float, edge: float) -> list[tuple[int, int]]:
-    """First and last sample of each way from one turning point to the next."""
+def _between_turns(p: NDArray[np.float64], turns: list[int], edge: float) -> list[tuple[int, int, int, int]]:
+    """Both turning points of each way from one to the next, and its first and last sample."""
     found = []
-    turns = turning_points(p, least_change)
     for begin, end in pairwise(turns):
         way = p[begin : end + 1]
         leaves = np.flatnonzero(np.abs(way - way[0]) <= edge)[-1]
         comes = leaves + np.flatnonzero(np.abs(way[leaves:] - way[-1]) <= edge)[0]
         if comes > leaves:
-            found.append((begin + int(leaves), begin + int(comes)))
+            found.append((begin, end, begin + int(leaves), begin + int(comes)))
     return found
 
 
@@ -175,15 +201,18 @@ def with_profiles(
         inside = slice(profile.first, profile.last + 1)
         number[inside] = np.where(good[inside], profile.number + 1, 0)
         direction[inside] = np.where(good[inside], profile.direction, 0)
+    return _numbered(samples, number, direction)
+
+
+def _numbered(samples: xr.Dataset, number: NDArray[np.int32], direction: NDArray[np.int8]) -> xr.Dataset:
+    dims = samples["time"].dims
     about = {"long_name": "number of the profile, from 1; 0 between profiles"}
     flags = {
         "long_name": "way of the profile",
         "flag_values": np.array([UP, 0, DOWN], dtype=np.int8),
         "flag_meanings": "up none down",
     }
-    return samples.assign(
-        profile_number=(pressure.dims, number, about), profile_direction=(pressure.dims, direction, flags)
-    )
+    return samples.assign(profile_number=(dims, number, about), profile_direction=(dims, direction, flags))
 
 
 def seconds(time: NDArray[np.generic]) -> NDArray[np.float64]:
@@ -192,3 +221,23 @@ def seconds(time: NDArray[np.generic]) -> NDArray[np.float64]:
         return time.astype(np.float64)
     found: NDArray[np.float64] = time.astype("datetime64[ns]").astype(np.int64) / 1e9
     return np.where(np.isnat(time), np.nan, found)
+
+
+def with_numbers(samples: xr.Dataset, profiles: Sequence[tuple[int, int, float, float]]) -> xr.Dataset:
+    """Return samples as `with_profiles` does, with profiles that are known already.
+
+    Parameters
+    ----------
+    samples
+        `time` [s since 1970] along one dimension, in order.
+    profiles
+        Number, direction, and times of the first and the last sample [s since 1970], in order; those that lie outside
+        of the samples do no harm.
+    """
+    time = seconds(samples["time"].values)
+    number = np.zeros(time.size, dtype=np.int32)
+    direction = np.zeros(time.size, dtype=np.int8)
+    for count, way, begin, end in profiles:
+        inside = slice(int(np.searchsorted(time, begin)), int(np.searchsorted(time, end, "right")))
+        number[inside], direction[inside] = count, way
+    return _numbered(samples, number, direction)

@@ -33,8 +33,13 @@ _PATTERNS = {
     "^[0-9a-f]{64}$": "must be a SHA-256 digest, 64 digits and letters a to f",
     PRINTABLE: "must not have control characters",
     r"\S": "must not be blank",
+    "^[A-Z0-9_]{1,16}$": "must be the name of a parameter, 1 to 16 capital letters, digits and _",
+    "^[0-9a-f]{16}$": "must be the id of a command, 16 digits and letters a to f",
+    "^[0-9a-f]+$": "must be digits and letters a to f, as the station has told it",
+    r"^(\d{1,17})-(alarm|command|mission|note)-([0-9a-f]{1,16})$": "must be the `next` of the page before",
+    "^[A-Za-z0-9.:_-]+$": "must be the name or address of a computer: letters, digits, and . : _ -",
 }
-"""What each pattern of a text means."""
+"""What each pattern of a text means: nobody is shown one."""
 
 _PLAIN = {
     **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
@@ -138,7 +143,7 @@ def _rarely(detail: ErrorDetails) -> str:
     if kind in ("literal_error", "enum"):
         return _one_of(detail["input"], context["expected"])
     if kind == "string_pattern_mismatch":
-        return _PATTERNS.get(context["pattern"], f"must match {context['pattern']}")
+        return _PATTERNS.get(context["pattern"], "has characters that do not belong here")
     return "is not what belongs here"
 
 

@@ -34,6 +34,10 @@ class RefusalCounts(Protocol):
     def replayed(self) -> int:
         """With one whose time stamp is old, or too far ahead."""
 
+    @property
+    def out_of_step(self) -> int:
+        """With one of an end that had not heard this one yet, or while the own stamps were lost."""
+
 
 class Refusals(NamedTuple):
     """These counts at one time."""
@@ -41,6 +45,8 @@ class Refusals(NamedTuple):
     unsigned: int = 0
     wrongly_signed: int = 0
     replayed: int = 0
+    out_of_step: int = 0
+    """Not told over the link: it is no sign of anybody else."""
 
 
 NOTHING_REFUSED = Refusals()
@@ -142,7 +148,7 @@ class Statistics:
             bad=session.bad,
             duplicate=counts.duplicate,
             lost=counts.lost,
-            refusals=Refusals(refused.unsigned, refused.wrongly_signed, refused.replayed),
+            refusals=Refusals(refused.unsigned, refused.wrongly_signed, refused.replayed, refused.out_of_step),
             round_trip_time=math.nan if round_trip is None else round_trip,
             time_out=math.nan if timer is None else timer.time_out,
             goodput=self.traffic.goodput(t),

@@ -39,6 +39,8 @@ class Parameter(NamedTuple):
     low: Value
     high: Value
     unit: str = ""
+    words: str = ""
+    """What it means to people."""
 
     def allows(self, value: Value) -> bool:
         """Whether a value lies within the limits; no number does not."""

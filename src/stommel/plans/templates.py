@@ -36,62 +36,74 @@ def templates(
     here = DEFAULT_START if start is None else start
     common = {"vehicle": vehicle, "start": place_row(here), "water": {"ocean": ocean_at(here)}} | (around or {})
     shelf, slope = (min(deepest, room_at(here, wanted)) for wanted in (70.0, 180.0))
-    far = [travel(*here, bearing, 20e3) for bearing in (90.0, 180.0)]
-    round_trip = [travel(*here, bearing, 4e3) for bearing in (135.0, 225.0, 315.0, 45.0)]
     return [
-        Template(
-            "shelf round",
-            f"Rounds of four waypoints on the shelf, dives to {shelf:g} m, a short call after each.",
-            common | {
-                "name": "Rounds on the shelf",
-                "duration_days": 2.0,
-                "waypoints": [place_row(place) for place in round_trip],
-                "guidance": {"acceptance_radius_m": 500.0, "repeat": True},
-                "dives": {"depth_m": shelf, "pitch_deg": 30.0, "speed_m_s": 0.5, "least_altitude_m": 10.0},
-                "surface": {"session_s": 180.0},
-            },
-        ),
-        Template(
-            "section",
-            f"A section of two legs, dives to {slope:g} m, a call after each.",
-            common | {
-                "name": "A section",
-                "duration_days": 5.0,
-                "waypoints": [place_row(place) for place in far],
-                "guidance": {"acceptance_radius_m": 1000.0},
-                "dives": {"depth_m": slope, "pitch_deg": 35.0, "speed_m_s": 0.5, "least_altitude_m": 15.0},
-                "surface": {"session_s": 240.0},
-            },
-        ),
-        Template(
-            "long and frugal",
-            f"Weeks at sea: steep, slow dives to {slope:g} m, a call every six hours.",
-            common | {
-                "name": "Long and frugal",
-                "duration_days": 20.0,
-                "waypoints": [place_row(travel(*here, 90.0, 100e3))],
-                "guidance": {"acceptance_radius_m": 2000.0},
-                "dives": {
-                    "depth_m": slope, "pitch_deg": 40.0, "speed_m_s": 0.4, "least_altitude_m": 15.0,
-                    "per_surfacing": 100,
-                },
-                "surface": {"session_s": 300.0, "every_hours": 6.0},
-                "abort": {"battery_share": 0.1, "dive_hours": 12.0},
-            },
-        ),
-        Template(
-            "stay here",
-            f"Keep the place: to and fro over two kilometres, dives to {shelf:g} m.",
-            common | {
-                "name": "Stay here",
-                "duration_days": 3.0,
-                "waypoints": [place_row(travel(*here, bearing, 1000.0)) for bearing in (0.0, 180.0)],
-                "guidance": {"acceptance_radius_m": 300.0, "repeat": True},
-                "dives": {"depth_m": shelf, "pitch_deg": 30.0, "speed_m_s": 0.5, "least_altitude_m": 10.0},
-                "surface": {"session_s": 180.0},
-            },
-        ),
+        Template(name, words, common | plan)
+        for name, words, plan in (
+            _shelf_round(here, shelf), _section(here, slope), _long_and_frugal(here, slope), _stay_here(here, shelf),
+        )
     ]  # fmt: skip
+
+
+def _shelf_round(here: Place, depth: float) -> Template:
+    return Template(
+        "shelf round",
+        f"Rounds of four waypoints on the shelf, dives to {depth:g} m, a short call after each.",
+        {
+            "name": "Rounds on the shelf",
+            "duration_days": 2.0,
+            "waypoints": [place_row(travel(*here, bearing, 4e3)) for bearing in (135.0, 225.0, 315.0, 45.0)],
+            "guidance": {"acceptance_radius_m": 500.0, "repeat": True},
+            "dives": {"depth_m": depth, "pitch_deg": 30.0, "speed_m_s": 0.5, "least_altitude_m": 10.0},
+            "surface": {"session_s": 180.0},
+        },
+    )
+
+
+def _section(here: Place, depth: float) -> Template:
+    return Template(
+        "section",
+        f"A section of two legs, dives to {depth:g} m, a call after each.",
+        {
+            "name": "A section",
+            "duration_days": 5.0,
+            "waypoints": [place_row(travel(*here, bearing, 20e3)) for bearing in (90.0, 180.0)],
+            "guidance": {"acceptance_radius_m": 1000.0},
+            "dives": {"depth_m": depth, "pitch_deg": 35.0, "speed_m_s": 0.5, "least_altitude_m": 15.0},
+            "surface": {"session_s": 240.0},
+        },
+    )
+
+
+def _long_and_frugal(here: Place, depth: float) -> Template:
+    dives = {"depth_m": depth, "pitch_deg": 40.0, "speed_m_s": 0.4, "least_altitude_m": 15.0, "per_surfacing": 100}
+    return Template(
+        "long and frugal",
+        f"Weeks at sea: steep, slow dives to {depth:g} m, a call every six hours.",
+        {
+            "name": "Long and frugal",
+            "duration_days": 20.0,
+            "waypoints": [place_row(travel(*here, 90.0, 100e3))],
+            "guidance": {"acceptance_radius_m": 2000.0},
+            "dives": dives,
+            "surface": {"session_s": 300.0, "every_hours": 6.0},
+            "abort": {"battery_share": 0.1, "dive_hours": 12.0},
+        },
+    )
+
+
+def _stay_here(here: Place, depth: float) -> Template:
+    return Template(
+        "stay here",
+        f"Keep the place: to and fro over two kilometres, dives to {depth:g} m.",
+        {
+            "name": "Stay here",
+            "duration_days": 3.0,
+            "waypoints": [place_row(travel(*here, bearing, 1000.0)) for bearing in (0.0, 180.0)],
+            "guidance": {"acceptance_radius_m": 300.0, "repeat": True},
+            "dives": {"depth_m": depth, "pitch_deg": 30.0, "speed_m_s": 0.5, "least_altitude_m": 10.0},
+            "surface": {"session_s": 180.0},
+        },
+    )
 
 
 def place_row(place: Place) -> dict[str, float]:

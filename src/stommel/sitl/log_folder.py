@@ -35,4 +35,4 @@ def logbook_in(folder: Path, mission: Mission) -> Logbook:
     """
     start = mission.scenario.start_time.timestamp()
     identity = LogIdentity(__version__, database_hash(), mission.vehicle.name, start)
-    return Logbook(SimulatedDisk(folder), LogSettings(), identity, 0.0)
+    return Logbook(SimulatedDisk(folder), LogSettings(), identity, 0.0, lambda t: start + t)

@@ -9,6 +9,8 @@ from stommel.link.service import Received
 from stommel.messages.mavlink import Fields, entry_words
 
 DEGREES = math.degrees(1.0)
+FULL_TURN = 360.0
+"""[deg]"""
 
 
 class Channel(NamedTuple):
@@ -33,6 +35,8 @@ class Channel(NamedTuple):
     """Of the CF conventions; empty where there is none."""
     enumeration: str = ""
     """Of `glider.xml`, whose entries the values are."""
+    turn: float | None = None
+    """Full turn after which the values begin anew, in the unit; None where they do not."""
 
     @property
     def values(self) -> Mapping[int, str]:
@@ -104,9 +108,9 @@ CHANNELS: tuple[Channel, ...] = (
     Channel("pitch_deg", "pitch, nose up", "deg", "attitude", "ATTITUDE", _of("pitch", DEGREES), 2.0, -90.0, 90.0,
             "platform_pitch"),
     Channel("roll_deg", "roll, right side down", "deg", "attitude", "ATTITUDE", _of("roll", DEGREES), 2.0, -180.0,
-            180.0, "platform_roll"),
+            180.0, "platform_roll", turn=FULL_TURN),
     Channel("heading_deg", "heading", "deg", "attitude", "ATTITUDE", _heading, 2.0, 0.0, 360.0,
-            "platform_orientation"),
+            "platform_orientation", turn=FULL_TURN),
     Channel("speed_through_water_m_s", "speed through the water", "m/s", "motion", "VFR_HUD", _of("airspeed"), 5.0,
             0.0, 10.0, "platform_speed_wrt_sea_water"),
     Channel("speed_over_ground_m_s", "speed over ground", "m/s", "motion", "VFR_HUD", _of("groundspeed"), 5.0, 0.0,
@@ -114,7 +118,7 @@ CHANNELS: tuple[Channel, ...] = (
     Channel("climb_m_s", "vertical speed, upwards", "m/s", "motion", "VFR_HUD", _of("climb"), 5.0, -5.0, 5.0),
     Channel("latitude_deg", "latitude", "deg", "navigation", _PLACE, _of("lat", 1e-7), 5.0, -90.0, 90.0, "latitude"),
     Channel("longitude_deg", "longitude", "deg", "navigation", _PLACE, _of("lon", 1e-7), 5.0, -180.0, 180.0,
-            "longitude"),
+            "longitude", turn=FULL_TURN),
     Channel("position_sigma_m", "the position may be wrong by", "m", "navigation", _WAY, _of("sigma"), 10.0, 0.0, 1e6),
     Channel("fix_age_s", "time since the last position by GPS", "s", "navigation", _WAY, _of("fix_age"), 10.0, 0.0,
             1e8),

@@ -2,11 +2,11 @@
 
 import time
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import asdict
 from typing import Any
 
-from stommel.archive import Archive, Batch
+from stommel.archive import Archive, ArchiveError, Batch
 from stommel.files.folder_lock import FolderInUseError, locked
 from stommel.link.transports.address import read_address
 from stommel.plans.preview.previews import Previews
@@ -21,6 +21,7 @@ from stommel.station.vehicles.attached import VehicleNews
 from stommel.station.vehicles.commands import Commands
 from stommel.station.vehicles.files import Files
 from stommel.station.vehicles.line import VehicleLine
+from stommel.station.vehicles.logs import VehicleLogs
 from stommel.station.vehicles.missions import Missions
 from stommel.station.vehicles.opening import VehicleError
 from stommel.station.vehicles.parameters import Parameters
@@ -73,6 +74,8 @@ class Station:
             self.parameters = Parameters(self.archive, self.hub, self.vehicles)
             self.missions = Missions(self.archive, self.hub, self.vehicles)
             self.files = Files(self.archive, self.hub, self.vehicles, settings.folder)
+            self.logs = VehicleLogs(self.archive, self.hub, settings.folder)
+            self.files.arrivals.append(self.logs.came)
             for vehicle in settings.vehicles:
                 self._attach(vehicle)
         except BaseException:
@@ -83,6 +86,7 @@ class Station:
         """Begin to listen to all vehicles."""
         self._is_started = True
         self.alarms.start()
+        self.logs.start()
         for line in self.vehicles.values():
             line.start()
 
@@ -176,5 +180,8 @@ class Station:
         for line in lines:
             line.stop()
         if self._is_started:
+            self.logs.stop()
             self.alarms.stop()
+            with suppress(ArchiveError):
+                self.people.audit.write_late()
         self._held.close()

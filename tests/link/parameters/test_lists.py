@@ -196,5 +196,5 @@ def test_a_value_that_is_no_number_is_kept_as_not_known() -> None:
     assert KnownParameters(1, disk).sets[COORDINATOR_COMPONENT].values[1] is None
     for _ in range(3):
         disk.broken = True
-        client.known.keep()
+        client.known.keep(0.0)
     assert len(client.known.notes) == 1, "the same again is no news"

@@ -18,11 +18,11 @@ from stommel.link.transports import Transport, TransportError, TransportState, o
 from stommel.link.transports.address import read_address
 from stommel.link.transports.outgoing import OutgoingBytes
 from stommel.link.transports.tcp import TcpClient
-from tests.support.ports import free_port
+from tests.support.ports import free_port, port_of_nobody
 
 from ..helpers import Listener, Speaker
 
-LONGEST_WAIT = 20.0
+LONGEST_WAIT = 60.0
 on_posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
 
 
@@ -87,11 +87,11 @@ def test_two_sessions_talk_over_a_pseudo_terminal_and_a_serial_port() -> None:
 
 
 def test_a_refused_connection_is_tried_until_somebody_listens() -> None:
-    port = free_port()
-    client = TcpClient(read_address(f"tcp:127.0.0.1:{port}"), retry=0.05)
-    try:
+    with port_of_nobody() as port:
+        client = TcpClient(read_address(f"tcp:127.0.0.1:{port}"), retry=0.05)
         until(lambda: not is_open(client) and client.reason.startswith("refused"))
         assert client.write(b"hello", time.monotonic()) == 0
+    try:
         server = open_transport(f"tcp-listen:127.0.0.1:{port}")
         until(lambda: is_open(client) and is_open(server))
         assert client.reason == ""

@@ -8,10 +8,11 @@ import pytest
 
 from stommel.control.commands import Commands
 from stommel.control.readings import Readings
-from stommel.onboard.coordination.logbook.file_names import log_name
-from stommel.onboard.coordination.logbook.framing import HEAD, MAGIC, LogIdentity, encoder, header
+from stommel.messages.log.layout import HEAD, MAGIC, SERIES
+from stommel.messages.log.names import log_name
+from stommel.messages.log.reader import CORRUPT, TRUNCATED, WHOLE, Record, read_log
+from stommel.onboard.coordination.logbook.framing import LogIdentity, encoder, header
 from stommel.onboard.coordination.logbook.logbook import Logbook, LogSettings, LogSettingsError
-from stommel.onboard.coordination.logbook.reader import CORRUPT, TRUNCATED, WHOLE, Record, read_log
 from stommel.onboard.coordination.logbook.records import (
     CAN_FRAME,
     COMMANDS,
@@ -25,7 +26,6 @@ from stommel.onboard.coordination.logbook.records import (
     RAW,
     READINGS,
     SERIAL,
-    SERIES,
 )  # fmt: skip
 from stommel.onboard.coordination.logbook.series import SyncPolicy
 from tests.onboard.coordination.disk import Disk, PowerCutError
@@ -93,8 +93,32 @@ def test_every_kind_is_read_back() -> None:
         assert contents.missing == 0
         assert contents.header == {
             "software": "0.1.0", "database_hash": 0xABCDEF, "vehicle": "mine", "started": 1_750_000_000.0,
-            "restarts": 0, "series": name, "first_sequence": 0,
+            "restarts": 0, "series": name, "first_sequence": 0, "clock": None,
         }  # fmt: skip
+
+
+def test_a_clock_that_is_set_begins_files_that_are_dated_anew() -> None:
+    """Oracle: the times by the clock at which each event happened. A clock that is slewed begins none."""
+    set_by = {10.0: 0.4, 100.0: 7200.0}
+    disk, offset = Disk(), 1_750_000_000.0
+    log = Logbook(disk, SMALL, IDENTITY, 0.0, lambda t: t + offset)
+    told = {}
+    for second in range(200):
+        t = float(second)
+        offset += set_by.get(t, 0.0)
+        log.step(t)
+        log.event(t, str(second))
+        told[str(second)] = t + offset
+    log.sync(200.0)
+    names = files(disk, ESSENTIAL)
+    assert len(names) == 2
+    for name in names:
+        contents = read_log(bytes(disk.files[name].data))
+        clock = contents.header["clock"]
+        for record in contents.records:
+            t, code, _ = record.values
+            if code in told and not 100 <= t < 160:  # a step is seen within a minute
+                assert clock["utc"] + t - clock["t"] == pytest.approx(told[code], abs=1.0)
 
 
 @pytest.mark.parametrize(("kind", "held"), [(READINGS, Readings), (COMMANDS, Commands)])

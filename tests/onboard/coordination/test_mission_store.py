@@ -192,7 +192,7 @@ def test_pieces_come_in_any_order_and_twice() -> None:
 
 def test_what_was_not_announced_so_is_refused() -> None:
     store = MissionStore(holding(OLD), LIMITS)
-    with pytest.raises(ReceptionError, match="none was announced"):
+    with pytest.raises(ReceptionError, match="no new one has been sent to the vehicle; send one first"):
         store.take(0, b"x")
     with pytest.raises(ReceptionError, match=r"size = 2000000: must be between 1 and 1048576 bytes"):
         store.announce(2_000_000, "0" * 64)
@@ -203,7 +203,7 @@ def test_what_was_not_announced_so_is_refused() -> None:
         with pytest.raises(ReceptionError, match="must lie within 0 to"):
             store.take(offset, b"x")
     store.take(0, NEW[:-1] + b"#")
-    with pytest.raises(ReceptionError, match="was announced; send it again"):
+    with pytest.raises(ReceptionError, match="is not the file that was sent; send it again"):
         store.switch()
     assert store.missing == [(0, len(NEW))]
     send(store, b"\xff\xfe")

@@ -3,7 +3,6 @@
 import os
 import signal
 import threading
-import time
 from collections.abc import Iterator
 
 import pytest
@@ -12,7 +11,8 @@ from stommel.plans.preview.worker import CancelledError, SimulatorError, Worker
 from stommel.plans.problems import PlanError
 from tests.plans.preview.serving import serve, serve_nothing
 
-SOON = 30.0
+SOON = 120.0
+LONG = 10_000.0
 
 
 @pytest.fixture
@@ -68,17 +68,15 @@ def test_one_that_is_killed_between_requests_is_replaced(worker: Worker) -> None
     first = worker.pid
     assert first is not None
     os.kill(first, signal.SIGKILL)
-    time.sleep(0.2)
+    os.waitid(os.P_PID, first, os.WEXITED | os.WNOWAIT)  # it is dead, and still to be found so
     assert ask(worker, "echo", 2) == {"echo": 2}
     assert worker.pid != first
 
 
 def test_one_that_takes_too_long_is_ended(worker: Worker) -> None:
     ask(worker, "echo", 1)
-    before = time.monotonic()
     with pytest.raises(SimulatorError, match=r"longer than 0\.3 s"):
-        ask(worker, "deaf", 60.0, limit=0.3)
-    assert time.monotonic() - before < 5.0
+        ask(worker, "deaf", LONG, limit=0.3)
     assert worker.pid is None
 
 
@@ -97,20 +95,16 @@ def test_one_that_speaks_without_a_pause_is_cancelled_too(worker: Worker) -> Non
     ask(worker, "echo", 1)
     stop = threading.Event()
     threading.Timer(0.2, stop.set).start()
-    before = time.monotonic()
     with pytest.raises(CancelledError):
-        ask(worker, "babble", 30.0, stop=stop)
-    assert time.monotonic() - before < 8.0
+        ask(worker, "babble", LONG, limit=LONG, stop=stop)
 
 
 def test_one_that_does_not_listen_is_ended(worker: Worker) -> None:
     ask(worker, "echo", 1)
     stop = threading.Event()
     stop.set()
-    before = time.monotonic()
     with pytest.raises(CancelledError):
-        ask(worker, "deaf", 60.0, stop=stop)
-    assert time.monotonic() - before < 10.0
+        ask(worker, "deaf", LONG, limit=LONG, stop=stop)
     assert ask(worker, "echo", 2) == {"echo": 2}
 
 

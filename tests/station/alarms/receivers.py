@@ -1,5 +1,6 @@
 """Receivers of alerts on this machine: a mail server and a web server that note what comes."""
 
+import errno
 import ssl
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,6 +16,9 @@ from cryptography import x509
 from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import NameOID
+
+from tests.support.ports import free_port
+from tests.support.waiting import WITHIN
 
 
 class Certificate(NamedTuple):
@@ -86,14 +90,25 @@ class MailReceiver:
 @contextmanager
 def mail_server(receiver: MailReceiver, **options: Any) -> Iterator[int]:
     """A mail server on a free port."""
-    from tests.support.ports import free_port
-
-    controller = Controller(receiver, hostname="localhost", port=free_port(), ready_timeout=20.0, **options)
-    controller.start()
+    controller = _started(receiver, options)
     try:
         yield controller.port
     finally:
         controller.stop()
+
+
+def _started(receiver: MailReceiver, options: dict[str, Any]) -> Controller:
+    """Its controller wants to know the port before; another program may take that meanwhile."""
+    for _ in range(10):
+        controller = Controller(receiver, hostname="localhost", port=free_port(), ready_timeout=WITHIN, **options)
+        try:
+            controller.start()
+        except OSError as error:
+            if error.errno != errno.EADDRINUSE:
+                raise
+        else:
+            return controller
+    raise RuntimeError("no port is free")
 
 
 class WebReceiver(BaseHTTPRequestHandler):

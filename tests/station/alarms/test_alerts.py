@@ -5,7 +5,7 @@ import hashlib
 import hmac
 import json
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from email import policy
 from pathlib import Path
@@ -24,17 +24,12 @@ from stommel.station.alarms.alerts import Alerts
 from stommel.station.alarms.delivery import MOST_WAITING, Courier, DeliveryError
 from stommel.station.alarms.webhook_way import SIGNATURE
 from tests.station.alarms.receivers import MailReceiver, certificate_in, mail_server, web_server
+from tests.support.ports import port_of_nobody
+from tests.support.waiting import until
 
 T0 = 1_700_000_000.0
 DEEP = Alarm(1, 1, "limit:depth_m:high", "Depth greater than 200 m", "critical", T0, 203.0)
 SENDER = Sender("Test station", lambda number: f"Zhong {number}", "https://station.example.org/")
-
-
-def until(condition: Callable[[], object], patience: float = 20.0) -> None:
-    end = time.monotonic() + patience
-    while not condition():
-        assert time.monotonic() < end, "it did not happen"
-        time.sleep(0.01)
 
 
 def kinds(alerts: Sequence[Alert]) -> list[tuple[str, int]]:
@@ -206,9 +201,8 @@ def test_one_recipient_whom_the_server_does_not_know_floods_nobody(tmp_path: Pat
 
 
 def test_nobody_at_the_port_is_a_sentence(tmp_path: Path) -> None:
-    from tests.support.ports import free_port
-
-    (tried,) = Alerts(email_settings(free_port(), tmp_path, tls="none"), SENDER, Reports()).test("ana")
+    with port_of_nobody() as port:
+        (tried,) = Alerts(email_settings(port, tmp_path, tls="none"), SENDER, Reports()).test("ana")
     assert tried.reason.startswith("e-mail through localhost: ")
     assert "refused" in tried.reason
 
@@ -279,11 +273,9 @@ def test_a_way_that_is_dead_holds_a_bounded_queue_and_nobody_up() -> None:
     way, reports = DeadWay(), Reports()
     courier = Courier(way, reports, waits=[0.001])
     courier.start()
-    begin = time.monotonic()
     for _ in range(3 * MOST_WAITING):
         courier.put([Alert("raised", DEEP)])
     until(lambda: way.tries > 3)
     assert courier.dropped == 2 * MOST_WAITING
     courier.stop()
-    assert time.monotonic() - begin < 10.0
     assert reports.told == ["dead: no"]

@@ -75,7 +75,7 @@ def nested(levels: int) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("content", "words"),
     [
-        ({}, "type = None is not known"),
+        ({}, "geojson: has no type"),
         ({"type": "Circle", "coordinates": [1, 2]}, "type = 'Circle' is not known"),
         ({"type": ["Point"], "coordinates": [1, 2]}, "is not known"),
         ({"type": "Point", "coordinates": [30.0, 122.0]}, "longitude comes first"),

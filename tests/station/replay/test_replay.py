@@ -2,7 +2,6 @@
 
 import json
 import time
-from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -19,16 +18,10 @@ from stommel.station.station import Station
 from stommel.station.web.app import create_app
 from tests.station.client import Client
 from tests.support.station_served import served
+from tests.support.waiting import WITHIN, until
 
 T0 = 1_700_000_000.0
 DEPTHS = [("depth_m", T0 + n, float(n % 200)) for n in range(20_000)]
-
-
-def until(condition: Callable[[], object], patience: float = 20.0) -> None:
-    end = time.monotonic() + patience
-    while not condition():
-        assert time.monotonic() < end, "it did not happen"
-        time.sleep(0.01)
 
 
 # the clock of a replay
@@ -174,14 +167,12 @@ def test_there_is_an_end_to_replays(station: Station, client: Client) -> None:
     until(lambda: client.get("/replays") == [])
 
 
-def test_a_replay_to_which_nobody_listens_ends(
-    station: Station, client: Client, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_replay_to_which_nobody_listens_ends(station: Station, client: Client) -> None:
     station.archive.store(1, Batch(samples=DEPTHS[:101]))
-    monkeypatch.setattr(replay_module.Replay.__init__, "__defaults__", (0.5,))
-    made = client.post("/replays", {"vehicle": 1, "begin": T0, "end": T0 + 100.0})
-    reader = station.hub.subscribe("a", f"replay:{made['replay']}", [])
-    time.sleep(1.0)
+    replay = station.replays.begin("local", 1, T0, T0 + 100.0, 1.0)
+    reader = station.hub.subscribe("a", replay.name, [])
+    replay._alone = 0.3
+    time.sleep(0.6)
     assert len(client.get("/replays")) == 1
     reader.close()
     until(lambda: client.get("/replays") == [])
@@ -244,21 +235,18 @@ def test_a_replay_at_full_speed_kills_no_connection_and_live_views_go_on(station
         _ask(slow, "s", replay.name, "depth_m")
         _ask(quick, "q", 1, "pitch_deg")
         until(lambda: station.hub.listeners(replay.name) and station.hub.listeners(1))
-        seen, slowly, slowest = [], [], 0.0
+        seen, slowly = [], []
         for sample in live:
-            begun = time.monotonic()
             station.hub.publish(Samples(1, sample[1], [sample]))
-            slowest = max(slowest, time.monotonic() - begun)
             time.sleep(0.005)
             seen += _samples(quick, "q", 0.0)
             if len(slowly) < 10 and sample[2] % 20 == 0:
                 slowly += _samples(slow, "s", 0.0, most=1)
         until(lambda: seen.extend(_samples(quick, "q", 0.1)) or len(seen) >= len(live))
         assert [t for t, _ in seen] == [t for _, t, _ in live]
-        assert slowest < 0.5
-        until(lambda: slowly.extend(_samples(slow, "s", 0.1)) or (slowly and slowly[-1][0] == T0 + 5999.0), 60.0)
+        until(lambda: slowly.extend(_samples(slow, "s", 0.1)) or (slowly and slowly[-1][0] == T0 + 5999.0))
         assert [t for t, _ in slowly] == [T0 + n for n in range(6000)]
-        slow.ping().wait(5.0)
+        assert slow.ping().wait(WITHIN)
 
 
 def _ask(socket: Any, identity: str, vehicle: int | str, channel: str) -> None:

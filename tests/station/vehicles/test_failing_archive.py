@@ -17,7 +17,7 @@ from stommel.station.vehicles import ingest
 from tests.station.client import Client
 from tests.station.speaker import Speaker, speaker, until
 from tests.station.stations import station
-from tests.support.ports import free_port
+from tests.support.ports import port_of_nobody
 
 ASK = {"tc1": 0, "ts1": 123_456_789}
 
@@ -101,7 +101,7 @@ def test_what_waits_is_bounded_and_the_line_is_not_read_beyond(tmp_path: Path, m
             until(lambda: found.vehicles[1].status().waiting >= 500)
             time.sleep(0.3)
             assert found.vehicles[1].status().waiting < 500 + 65_536 // 20
-        until(lambda: came(found) == 10_300, within=60.0)
+        until(lambda: came(found) == 10_300, within=240.0)
 
 
 def test_a_row_that_no_archive_takes_does_not_stop_the_rest(tmp_path: Path) -> None:
@@ -129,7 +129,7 @@ def test_an_archive_that_was_busy_once_is_tried_again_though_the_vehicle_is_sile
             if len(looks) == 1:
                 raise ArchiveBusyError("archive.sqlite: another program is writing to the archive")
 
-    with station(tmp_path, f"tcp:127.0.0.1:{free_port()}", start=False) as found:
+    with port_of_nobody() as port, station(tmp_path, f"tcp:127.0.0.1:{port}", start=False) as found:
         found.vehicles[1].followers.append(Unlucky())
         found.start()
         until(lambda: len(looks) > 1)
@@ -141,7 +141,7 @@ def test_a_row_of_a_follower_that_no_archive_takes_holds_nothing_up(tmp_path: Pa
         def look(self, *_: object) -> None:
             raise ArchiveRequestError("a time of -1 s since 1970")
 
-    with station(tmp_path, f"tcp:127.0.0.1:{free_port()}", start=False) as found:
+    with port_of_nobody() as port, station(tmp_path, f"tcp:127.0.0.1:{port}", start=False) as found:
         found.vehicles[1].followers.append(Wrong())
         found.start()
         until(lambda: "Wrong failed" in found.vehicles[1].failure)

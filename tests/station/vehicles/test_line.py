@@ -44,6 +44,7 @@ def test_the_latest_value_of_each_channel_is_known_at_once_and_after_a_restart(t
     with speaker() as vehicle:
         with station(tmp_path, vehicle.address) as found:
             vehicle.connect()
+            before = time.time()
             say_state(vehicle, 42.0, 1000)
             until(lambda: "depth_m" in found.hub.values(1))
             assert found.hub.values(1)["depth_m"][1] == 42.0
@@ -51,7 +52,7 @@ def test_the_latest_value_of_each_channel_is_known_at_once_and_after_a_restart(t
         with station(tmp_path, vehicle.address, start=False) as again:
             t, value = again.hub.values(1)["depth_m"]
             assert value == 42.0
-            assert 0.0 <= time.time() - t < 60.0
+            assert before - 1.0 <= t <= time.time()  # what it says is stamped as it comes, by a clock of its own
             assert again.summary(1)["dive"] == 2
             assert again.summary(1)["last_contact"] == pytest.approx(t, abs=1.0)
 

@@ -13,6 +13,7 @@ from stommel.station.vehicles import asking
 from stommel.station.vehicles.mission_rows import MissionRow, MissionRows
 from stommel.station.vehicles.missions import MissionError
 from stommel.station.vehicles.opening import VehicleError
+from tests.plans.plans import place, plan_with
 from tests.station.client import Client
 from tests.station.served import Served, served
 from tests.station.speaker import until
@@ -63,6 +64,21 @@ def test_a_mission_is_kept_with_who_and_hash_and_arrives_whole(tmp_path: Path) -
             until(lambda: client.get("/vehicles/1/mission")["sha256"] == row["sha256"])
             steps = [each["state"] for each in client.get(f"/vehicles/1/missions/{row['id']}")["history"]]
             assert steps == ["waiting", "sending", "aboard"]
+
+
+def test_the_geofence_of_its_plan_is_told_with_the_mission_aboard(tmp_path: Path) -> None:
+    """Orders have no geofence: it is of the plan out of which they were made, and a map draws it."""
+    corners = [place(28.0, 126.0), place(29.0, 126.0), place(29.0, 127.0)]
+    with served() as vehicle, station(tmp_path, vehicle.address) as found:
+        client = Client(found)
+        until(lambda: found.vehicles[1].status().heard)
+        found.missions.upload(1, "ada", OTHER, plan=plan_with(geofence=corners), valid_for_s=600.0)
+        until(lambda: client.get("/vehicles/1/mission")["mission"])
+        told = client.get("/vehicles/1/mission")["geofence"]
+        assert told == [{"latitude": each["latitude_deg"], "longitude": each["longitude_deg"]} for each in corners]
+        older = found.missions.upload(1, "ada", ORDERS, plan={"of": "another age"}, valid_for_s=600.0)
+        until(lambda: client.get("/vehicles/1/mission")["sha256"] == older.sha256)
+        assert client.get("/vehicles/1/mission")["geofence"] == []
 
 
 def test_roll_back_brings_the_mission_before_back(tmp_path: Path) -> None:

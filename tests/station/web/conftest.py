@@ -27,7 +27,7 @@ def station(tmp_path: Path) -> Iterator[Station]:
 @pytest.fixture
 def local(station: Station) -> Iterator[httpx.Client]:
     """At the station's own machine: nobody logs in."""
-    with served(create_app(station)) as address, httpx.Client(base_url=address) as client:
+    with served(create_app(station)) as address, httpx.Client(base_url=address, timeout=60.0) as client:
         yield client
 
 

@@ -1,7 +1,6 @@
 """The live socket: greets, hands on, lets one bad subscription end alone, and shuts with the session."""
 
 import json
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -14,6 +13,7 @@ from websockets.sync.client import ClientConnection, connect
 from stommel.station.station import Station
 from stommel.station.web import live
 from tests.support.station_served import StandInHub, StandInReader, handshake
+from tests.support.waiting import WITHIN, until
 
 
 @contextmanager
@@ -23,7 +23,7 @@ def _socket(address: Any, **more: Any) -> Iterator[ClientConnection]:
 
 
 def _said(socket: ClientConnection) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(socket.recv(timeout=5.0), parse_constant=lambda word: pytest.fail(word))
+    found: dict[str, Any] = json.loads(socket.recv(timeout=WITHIN), parse_constant=lambda word: pytest.fail(word))
     return found
 
 
@@ -104,7 +104,7 @@ def test_a_message_without_end_closes_the_socket(local: httpx.Client) -> None:
         with pytest.raises(ConnectionClosed):  # noqa: PT012 - when it notices is its own affair
             socket.send("x" * (20 << 20))
             for _ in range(10):
-                socket.recv(timeout=5.0)
+                socket.recv(timeout=WITHIN)
     assert local.get("/api/station").status_code == 200
 
 
@@ -122,7 +122,7 @@ def test_subscriptions_are_bounded_and_closed_with_the_socket(local: httpx.Clien
         socket.send('{"type": "unsubscribe", "id": "never was"}')
         _subscribe(socket, "one more")
         assert _said(socket)["type"] == "values"
-    _until(lambda: all(reader.closed for reader in hub.given))
+    until(lambda: all(reader.closed for reader in hub.given))
 
 
 def test_the_socket_shuts_with_the_session(
@@ -137,7 +137,7 @@ def test_the_socket_shuts_with_the_session(
         ada.patch("/api/users/paul", json={"disabled": True})
         with pytest.raises(ConnectionClosed) as caught:  # noqa: PT012
             while True:
-                socket.recv(timeout=5.0)
+                socket.recv(timeout=WITHIN)
     assert caught.value.rcvd is not None
     assert caught.value.rcvd.code == 4401
 
@@ -155,10 +155,3 @@ def test_a_hand_over_is_seen(paul: httpx.Client, vera: httpx.Client, address: st
         while (event := _said(socket))["type"] != "event":
             pass
         assert (event["kind"], event["vehicle"], event["data"]["user"]) == ("holder", 1, "paul")
-
-
-def _until(condition: Any) -> None:
-    end = time.monotonic() + 5.0
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.01)

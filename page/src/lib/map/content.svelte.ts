@@ -3,25 +3,8 @@
 import { api } from '../api';
 import { clock } from '../clock.svelte';
 import { live } from '../live.svelte';
-import type { Track, VehicleKey } from '../types';
+import type { DiveRow, LayerRow, MissionAboard, Track, VehicleKey } from '../types';
 import type { MapArrow, MapLayer, MapWaypoint, Place } from './types';
-
-interface DiveRow {
-  dive: number;
-  t_begin: number;
-  t_end: number | null;
-  latitude_begin: number | null;
-  longitude_begin: number | null;
-  latitude_end: number | null;
-  longitude_end: number | null;
-  current_north_m_s: number | null;
-  current_east_m_s: number | null;
-}
-
-interface MissionAboard {
-  waypoints?: MapWaypoint[];
-  fence?: Place[] | null;
-}
 
 const NEWEST_ARROWS = 60;
 
@@ -93,12 +76,12 @@ export class MapContent {
   private async loadMission(): Promise<void> {
     const load = this.loads;
     const query = { at: this.until };
-    const mission = await api.get<MissionAboard | null>(`/vehicles/${this.vehicle}/mission`, query).catch(() => undefined);
-    if (mission === undefined || load !== this.loads) return;
-    this.waypoints = together(Array.isArray(mission?.waypoints) ? mission.waypoints : []);
+    const mission = await api.get<MissionAboard>(`/vehicles/${this.vehicle}/mission`, query).catch(() => undefined);
+    if (!mission || load !== this.loads) return;
+    this.waypoints = together(mission.waypoints);
     const repeats = this.waypoints.some((one) => (one.numbers?.length ?? 0) > 1);
     this.route = repeats && this.waypoints[0] ? [...this.waypoints, this.waypoints[0]] : this.waypoints;
-    this.fence = Array.isArray(mission?.fence) ? mission.fence : [];
+    this.fence = mission.geofence;
   }
 
   private async loadDives(): Promise<void> {
@@ -137,14 +120,6 @@ function arrow(row: DiveRow, strong: boolean): MapArrow[] {
   ];
 }
 
-interface LayerRow {
-  id: number;
-  name: string;
-  kind: string;
-  bounds: [number, number, number, number] | null;
-  content: unknown;
-}
-
 /** The station's own chart layers; none where they cannot be had. */
 export async function chartLayers(): Promise<MapLayer[]> {
   const rows = await api.get<LayerRow[]>('/layers').catch(() => []);
@@ -152,7 +127,7 @@ export async function chartLayers(): Promise<MapLayer[]> {
   return rows.map((row) => {
     const layer: MapLayer = { id: row.id, name: row.name };
     if (row.bounds) layer.bounds = row.bounds;
-    if (row.kind === 'geojson') layer.geojson = row.content as GeoJSON.GeoJsonObject;
+    if (row.kind === 'geojson') layer.geojson = row.content as unknown as GeoJSON.GeoJsonObject;
     else layer.image = `./api/layers/${row.id}/image`;
     return layer;
   });

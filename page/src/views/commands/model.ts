@@ -1,47 +1,13 @@
 /** Commands as the page shows them: what may be typed, how long it is valid, what became of it. */
 
-export interface CommandParameter {
-  name: string;
-  unit: string;
-  low: number;
-  high: number;
-  words: string;
-  whole: boolean;
-}
+import type { CommandDetail, CommandKind, CommandParameter, CommandState, GivenCommand } from '../../lib/types';
 
-export interface CommandType {
-  name: string;
-  words: string;
-  parameters: CommandParameter[];
-  confirm: string;
-}
-
-export type When = 'at_once' | 'at_next_surfacing' | 'until_expiry';
-
-export interface CommandChange {
-  t: number;
-  state: string;
-  words: string;
-}
-
-export interface CommandRow {
-  id: string;
-  vehicle: number;
-  user: string;
-  given: number;
-  expires: number;
-  name: string;
-  parameters: Record<string, number>;
-  when: When;
-  state: string;
-  /** Why, and what is known. */
-  words: string;
-  changed: number;
-  /** Whether nothing comes after this state. */
-  is_last: boolean;
-  percent: number | null;
-  history?: CommandChange[];
-}
+export type { CommandParameter };
+export type CommandType = CommandKind;
+export type CommandChange = CommandState;
+export type When = GivenCommand['when'];
+/** A command of a list, or alone with all that became of it. */
+export type CommandRow = GivenCommand & Partial<Pick<CommandDetail, 'history'>>;
 
 /** What a person typed for a command. */
 export interface Typed {

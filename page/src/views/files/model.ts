@@ -1,35 +1,24 @@
 /** Files of a vehicle and their transfers, as the page shows them. */
 
+import type { StoredLog, Transfer } from '../../lib/types';
+import { bytes } from '../../lib/units';
 import { plainState, type Tone } from '../commands/model';
 
-export interface Entry {
-  name: string;
-  size: number;
-  is_folder: boolean;
+export type { FolderEntry as Entry, StoredFile, Transfer } from '../../lib/types';
+
+/** How far a log is in the archive, in words. */
+export function logWords(log: Omit<StoredLog, 'begin' | 'end'>): string {
+  if (log.state === 'waiting') return 'waits to go into the archive';
+  if (log.state === 'going') return `goes into the archive: ${Math.floor(100 * log.share)} %`;
+  if (log.state === 'refused') return `not in the archive: ${log.words}`;
+  const told = `in the archive: ${counted(log.samples, 'sample')}, ${counted(log.dives, 'dive')}`;
+  return log.words.startsWith('whole') ? told : `${told}; ${log.words}`;
 }
 
-export interface Transfer {
-  id: number;
-  path: string;
-  direction: 'download' | 'upload';
-  state: string;
-  is_paused: boolean;
-  is_over: boolean;
-  reason: string;
-  done: number;
-  size: number | null;
-  rate: number | null;
-  seconds_left: number | null;
-  user: string | null;
-}
-
-export interface StoredFile {
-  id: number;
-  path: string;
-  size: number | null;
-  sha256: string | null;
-  t: number;
-  state: string;
+/** A number of things, its thousands apart. */
+export function counted(count: number, thing: string): string {
+  const digits = String(count).replace(/\B(?=(\d{3})+$)/g, '\u202f');
+  return `${digits} ${thing}${count === 1 ? '' : 's'}`;
 }
 
 /** How much of a file is there, 0 to 1; null before its size is known. */
@@ -67,6 +56,15 @@ export function inside(folder: string, name: string): string {
 export function crumbs(path: string): { name: string; path: string }[] {
   const parts = path.split('/').filter(Boolean);
   return parts.map((name, index) => ({ name, path: parts.slice(0, index + 1).join('/') }));
+}
+
+/** Of a file that is sent to a vehicle; the station has the last word. */
+const MOST_BYTES = 8 << 20;
+
+/** What is wrong with a file that shall be sent, in words; empty if nothing is. */
+export function fileProblem(file: File): string {
+  if (file.size === 0) return 'this file is empty';
+  return file.size > MOST_BYTES ? `this file has ${bytes(file.size)}; at most ${bytes(MOST_BYTES)} go over the radio` : '';
 }
 
 /** What is wrong with a path that a file shall get, in words; empty if nothing is. */

@@ -1,21 +1,6 @@
 /** A MAVLink frame taken apart as far as its header says; the fields of a message come from the station. */
 
-export interface FrameRow {
-  /** In the archive; later ones have greater numbers. */
-  number: number;
-  t: number;
-  received: number;
-  direction: 'in' | 'out';
-  system: number;
-  component: number;
-  message_id: number;
-  message: string;
-  sequence: number;
-  signed: boolean;
-  /** As it was, in hexadecimal. */
-  bytes: string;
-  values: Record<string, unknown>;
-}
+export type { Frame as FrameRow } from '../../lib/types';
 
 export interface FramePart {
   from: number;

@@ -1,42 +1,14 @@
 /** Figures of a link as plain tiles: what each is, and what it means. */
 
+import type { LinkFigures } from '../../lib/types';
 import type { FrameRow } from './frames';
 import { bytes, duration, number, quantity } from '../../lib/units';
 
-/** What one end counts; null for what was not measured. */
-export interface Figures {
-  good: number;
-  bad: number;
-  duplicate: number;
-  lost: number;
-  loss_share: number;
-  unsigned_refused: number;
-  wrongly_signed_refused: number;
-  replayed_refused: number;
-  round_trip_s: number | null;
-  time_out_s: number | null;
-  goodput_b_s: number | null;
-  retransmit_ratio: number | null;
-  bytes_waiting: number;
-  surface_time_left_s: number | null;
-  is_signing: boolean;
-}
+export type { LinkAnswer } from '../../lib/types';
 
-export interface LinkAnswer {
-  now: number;
-  heard: boolean;
-  since: number | null;
-  last_contact: number | null;
-  transport: string;
-  is_open: boolean;
-  /** Why the vehicle is not heard. */
-  reason: string;
-  /** Why what comes is not kept. */
-  archive: string;
-  frames_waiting: number;
-  figures: Figures;
-  notes: string[];
-}
+type NotTold = 'goodput_b_s' | 'retransmit_ratio';
+/** What one end counts; the vehicle does not tell all of it. */
+export type Figures = Omit<LinkFigures, NotTold> & { [Name in NotTold]: number | null };
 
 /** The figures that a LINK_STATISTICS message of the vehicle tells of its side. */
 export function toldBy(row: FrameRow): Figures {
@@ -55,6 +27,7 @@ export function toldBy(row: FrameRow): Figures {
     unsigned_refused: count('unsigned_refused'),
     wrongly_signed_refused: count('wrongly_signed_refused'),
     replayed_refused: count('replayed_refused'),
+    out_of_step_refused: 0,
     round_trip_s: value('round_trip_time'),
     time_out_s: value('time_out'),
     goodput_b_s: value('goodput'),
@@ -95,9 +68,7 @@ export function figuresOf(told: Figures, sender: string): Figure[] {
       'refused',
       'Not believed',
       count(refused),
-      refused === 0
-        ? 'no frame without the right signature'
-        : `${count(told.unsigned_refused)} unsigned, ${count(told.wrongly_signed_refused)} with a wrong key, ${count(told.replayed_refused)} too old`,
+      refusedWords(told, sender),
       told.wrongly_signed_refused + told.replayed_refused > 0 ? 'warning' : refused > 0 ? 'caution' : '',
     ),
     figure(
@@ -108,6 +79,14 @@ export function figuresOf(told: Figures, sender: string): Figure[] {
       told.is_signing ? '' : 'caution',
     ),
   ];
+}
+
+/** What was not believed; rightly signed frames of an end that had not heard the other one yet are no sign of a stranger. */
+function refusedWords(told: Figures, sender: string): string {
+  const early = told.out_of_step_refused;
+  const apart = early === 0 ? '' : `; not counted: ${count(early)} rightly signed, said before ${sender} had heard the other end`;
+  if (told.unsigned_refused + told.wrongly_signed_refused + told.replayed_refused === 0) return `no frame without the right signature${apart}`;
+  return `${count(told.unsigned_refused)} unsigned, ${count(told.wrongly_signed_refused)} with a wrong key, ${count(told.replayed_refused)} too old${apart}`;
 }
 
 function figure(key: string, label: string, value: string, meaning: string, tone: Figure['tone'] = ''): Figure {

@@ -2,21 +2,9 @@
 
 import { api, sentence } from '../../lib/api';
 import { live } from '../../lib/live.svelte';
-import type { EventKind } from '../../lib/types';
+import type { EventKind, LogEntry, LogPage } from '../../lib/types';
 
-export interface LogEntry {
-  readonly kind: 'note' | 'command' | 'mission' | 'alarm';
-  readonly id: string;
-  readonly t: number;
-  readonly user: string | null;
-  readonly words: string;
-  readonly state: string | null;
-}
-
-interface LogPage {
-  readonly entries: readonly LogEntry[];
-  readonly next: string | null;
-}
+export type { LogEntry };
 
 const PAGE = 100;
 const REST_MS = 250;

@@ -1,47 +1,10 @@
 /** Parameters of a vehicle, by component, as the page shows them. */
 
-export interface ParameterRow {
-  component: number;
-  name: string;
-  words: string;
-  unit: string;
-  kind: string;
-  low: number;
-  high: number;
-  default: number;
-  value: number | null;
-}
+import type { ComponentParameters, Parameter, ParameterAnswer, ParameterWrite } from '../../lib/types';
 
-export interface ComponentRow {
-  component: number;
-  name: string;
-  state: 'known' | 'silent' | 'being_read';
-  /** Why not all of it is up to date. */
-  reason: string;
-  parameters: ParameterRow[];
-}
-
-/** A value that somebody sets, and what the vehicle said of it. */
-export interface Write {
-  ticket: number;
-  component: number;
-  name: string;
-  value: number;
-  user: string;
-  t: number;
-  state: 'waiting' | 'done' | 'refused' | 'failed';
-  words: string;
-  /** Value that holds aboard, as far as the vehicle said. */
-  holds: number | null;
-}
-
-export interface ParameterAnswer {
-  refreshing: { done: number; of: number; seconds_left: number | null } | null;
-  components: (Omit<ComponentRow, 'parameters'> & { parameters: Omit<ParameterRow, 'component'>[] })[];
-  missing: { component: number; name: string; reason: string }[];
-  notes: string[];
-  writes: Write[];
-}
+export type { ParameterAnswer, ParameterWrite as Write };
+export type ParameterRow = Parameter & { component: number };
+export type ComponentRow = Omit<ComponentParameters, 'parameters'> & { parameters: ParameterRow[] };
 
 /** The components of an answer, each parameter with its component. */
 export function componentsOf(answer: ParameterAnswer): ComponentRow[] {
@@ -66,9 +29,47 @@ export function isTruth(row: ParameterRow): boolean {
   return isWhole(row) && row.low === 0 && row.high === 1;
 }
 
+/** Units as people speak them, and how many of them one SI unit is. */
+const SPOKEN: Record<string, readonly [string, number]> = {
+  m3: ['ml', 1e6],
+  'm3/s': ['ml/s', 1e6],
+  rad: ['deg', 180 / Math.PI],
+  'rad/s': ['deg/s', 180 / Math.PI],
+  Pa: ['kPa', 1e-3],
+};
+
+/** What lies within a metre is told in millimetres, as the moving mass is. */
+function spoken(row: ParameterRow): readonly [string, number] {
+  const isShort = Math.max(Math.abs(row.low), Math.abs(row.high)) <= 1;
+  if (row.unit === 'm' && isShort) return ['mm', 1e3];
+  if (row.unit === 'm/s' && isShort) return ['mm/s', 1e3];
+  return SPOKEN[row.unit] ?? [row.unit, 1];
+}
+
+/** Unit in which a parameter is shown and typed. */
+export function unitOf(row: ParameterRow): string {
+  return spoken(row)[0];
+}
+
+/** A value of the vehicle in the unit that is shown; 32 bits hold seven digits of it. */
+export function shown(row: ParameterRow, value: number): number {
+  const factor = spoken(row)[1];
+  return factor === 1 ? value : Number((value * factor).toPrecision(7));
+}
+
+/** A value that is typed in the unit shown, as the vehicle has it; an end of the range stays that end. */
+export function meant(row: ParameterRow, typed: number): number {
+  const near = (end: number): boolean => shown(row, end) === Number(typed.toPrecision(7));
+  if (near(row.low)) return row.low;
+  if (near(row.high)) return row.high;
+  if (row.value !== null && near(row.value)) return row.value;
+  return typed / spoken(row)[1];
+}
+
 /** What may be typed, in words. */
 export function rangeWords(row: ParameterRow): string {
-  const span = `${digits(row.low)} to ${digits(row.high)}${row.unit ? ` ${row.unit}` : ''}`;
+  const unit = unitOf(row);
+  const span = `${typing(row, row.low)} to ${typing(row, row.high)}${unit ? ` ${unit}` : ''}`;
   return isTruth(row) ? 'yes or no' : isWhole(row) ? `whole, ${span}` : span;
 }
 
@@ -79,8 +80,14 @@ export function problemOf(row: ParameterRow, text: string): string {
   const value = Number(typed);
   if (!Number.isFinite(value)) return `"${text.trim()}" is not a number; allowed is ${rangeWords(row)}`;
   if (isWhole(row) && !Number.isInteger(value)) return `${typed} is not a whole number; allowed is ${rangeWords(row)}`;
-  if (value < row.low || value > row.high) return `${typed} is out of range; allowed is ${rangeWords(row)}`;
+  const si = meant(row, value);
+  if (si < row.low || si > row.high) return `${typed} is out of range; allowed is ${rangeWords(row)}`;
   return '';
+}
+
+/** A value of the vehicle as it is typed. */
+export function typing(row: ParameterRow, value: number): string {
+  return digits(shown(row, value));
 }
 
 /** As many digits as 32 bits hold, without needless zeros. */
@@ -94,12 +101,13 @@ export function digits(value: number): string {
 export function valueWords(row: ParameterRow, value: number | null): string {
   if (value === null) return 'not known';
   if (isTruth(row)) return value ? 'yes' : 'no';
-  return row.unit ? `${digits(value)} ${row.unit}` : digits(value);
+  const unit = unitOf(row);
+  return unit ? `${typing(row, value)} ${unit}` : digits(value);
 }
 
-/** A value in a table: five digits tell enough. */
+/** A value in a table: four digits tell enough. */
 export function brief(row: ParameterRow, value: number | null): string {
-  return valueWords(row, value === null ? null : Number(value.toPrecision(5)));
+  return valueWords(row, value === null ? null : Number(value.toPrecision(4)));
 }
 
 /** Where a value lies in its range, 0 to 1; null without one. */
@@ -113,7 +121,7 @@ export function found(rows: ParameterRow[], search: string, changedOnly: boolean
   const wanted = search.toLowerCase().split(/\s+/).filter(Boolean);
   return rows.filter((row) => {
     if (changedOnly && !isChanged(row)) return false;
-    const text = `${row.name} ${row.words} ${row.unit}`.toLowerCase();
+    const text = `${row.name} ${row.words} ${row.unit} ${unitOf(row)}`.toLowerCase();
     return wanted.every((word) => text.includes(word));
   });
 }

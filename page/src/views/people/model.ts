@@ -2,32 +2,7 @@
 
 import type { Role } from '../../lib/types';
 
-export interface Person {
-  name: string;
-  role: Role;
-  added?: number;
-  disabled: boolean;
-}
-
-export interface Token {
-  token: number;
-  user: string;
-  name: string;
-  role: Role;
-  made: number;
-  expires: number | null;
-  last_used: number | null;
-}
-
-export interface AuditRow {
-  entry: number;
-  t: number;
-  user: string | null;
-  address: string | null;
-  action: string;
-  vehicle: number | null;
-  detail: unknown;
-}
+export type { AuditRow, Person, Token } from '../../lib/types';
 
 export const ROLES: { role: Role; words: string }[] = [
   { role: 'viewer', words: 'looks at everything, changes nothing' },

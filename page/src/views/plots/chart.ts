@@ -4,6 +4,7 @@ import uPlot from 'uplot';
 
 import { token } from '../../lib/theme.svelte';
 import { tickWords } from '../../lib/times';
+import { BESIDE_S, readAround, type Around } from '../../lib/turns';
 import type { Interval } from './window';
 
 export interface Ink {
@@ -32,6 +33,8 @@ export interface ChartSettings {
   readonly words: ReadonlyMap<number, string> | null;
   ink(): Ink;
   limits(): readonly Limit[];
+  /** Of values that go around: labels are of their turn. */
+  readonly around: Around | null;
   shown(): Interval;
   onSelect(begin: number, end: number): void;
   onCursor(t: number | null): void;
@@ -43,6 +46,11 @@ const AXIS_HEIGHT = 26;
 const HEADROOM = 0.06;
 const LIMIT_SHADE = 0.09;
 const WIDTH = 1.5;
+/** Half of what is left free where a line goes around. */
+const CUT_WIDTH = 1.25;
+/** Between leaving at one edge and coming in at the other: real gaps last longer. */
+const LONGEST_CUT_S = 3 * BESIDE_S;
+const DEGREES = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180];
 /** That a trace goes up and down, in heights of its plot. */
 const MANY_HEIGHTS = 20;
 
@@ -124,10 +132,28 @@ function series(settings: ChartSettings, index: number): uPlot.Series {
     stroke: () => settings.ink().traces[index % 8] ?? 'gray',
     width: WIDTH,
     spanGaps: false,
+    gaps: withCuts,
     ...(settings.dashed[index] ? { dash: [6, 4] } : {}),
     points: { show: (_plot, _series, first, last) => last - first < 40, size: 4 },
     ...(paths ? { paths } : {}),
   };
+}
+
+/**
+ * A gap that is narrower than a column of pixels is drawn as a line from one edge to the other, and so would be the place
+ * where a heading passes north: there a column and a half are left free.
+ */
+function withCuts(plot: uPlot, index: number, first: number, last: number, gaps: uPlot.Series.Gaps): uPlot.Series.Gaps {
+  const times = plot.data[0];
+  const values = plot.data[index] ?? [];
+  const half = CUT_WIDTH * uPlot.pxRatio;
+  const cuts: uPlot.Series.Gaps = [];
+  for (let place = Math.max(1, first); place < last; place += 1) {
+    if (values[place] !== null || times[place + 1]! - times[place - 1]! > LONGEST_CUT_S) continue;
+    const x = plot.valToPos(times[place]!, 'x', true);
+    cuts.push([x - half, x + half]);
+  }
+  return cuts.length ? [...gaps, ...cuts].sort((a, b) => a[0] - b[0]) : gaps;
 }
 
 function timeAxis(settings: ChartSettings): uPlot.Axis {
@@ -140,20 +166,23 @@ function timeAxis(settings: ChartSettings): uPlot.Axis {
 }
 
 function valueAxis(settings: ChartSettings): uPlot.Axis {
-  const named = settings.words;
+  const { words, around } = settings;
+  const said = (ticks: number[]): string[] => (words ? ticks.map((tick) => words.get(tick) ?? '') : numbers(ticks, around));
   return {
     ...line(settings),
     size: AXIS_WIDTH,
     space: 30,
-    ...(named ? { incrs: [1, 2, 5, 10], values: (_plot: uPlot, ticks: number[]) => ticks.map((tick) => named.get(tick) ?? '') } : { values: numbers }),
+    values: (_plot, ticks) => said(ticks),
+    ...(words ? { incrs: [1, 2, 5, 10] } : around ? { incrs: DEGREES } : {}),
   };
 }
 
-function numbers(_plot: uPlot, ticks: (number | null)[]): string[] {
+function numbers(ticks: (number | null)[], around: Around | null): string[] {
   const [first, second] = ticks;
   const step = typeof first === 'number' && typeof second === 'number' ? Math.abs(second - first) : 1;
   const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(step) + 1e-9)));
-  return ticks.map((tick) => (tick === null ? '' : tick.toFixed(digits).replace('-', '\u2212')));
+  const read = (tick: number): number => (around ? readAround(tick, around, digits) : tick);
+  return ticks.map((tick) => (tick === null ? '' : read(tick).toFixed(digits).replace('-', '\u2212')));
 }
 
 function line(settings: ChartSettings): uPlot.Axis {

@@ -1,8 +1,8 @@
 // From the answers of the archive, and what came since, to what is drawn.
 
-export interface Trace {
-  readonly t: readonly number[];
-  readonly value: readonly (number | null)[];
+import type { Line } from '../../lib/turns';
+
+export interface Trace extends Line {
   readonly samples: number;
   readonly reduced: boolean;
 }
@@ -20,7 +20,7 @@ export interface Aligned {
  * Several traces on one axis of times. A value that a trace does not have at a time of another one is undefined (the
  * line goes on over it); null is a gap and stays one.
  */
-export function aligned(traces: readonly (Trace | undefined)[]): Aligned {
+export function aligned(traces: readonly (Line | undefined)[]): Aligned {
   const rows = traces.map((trace) => ({ t: trace?.t ?? [], value: trace?.value ?? [], place: 0, drawn: [] as Drawn }));
   const t: number[] = [];
   for (;;) {

@@ -8,6 +8,7 @@ from typer.core import TyperGroup
 from stommel.cli.station.backup import backup
 from stommel.cli.station.check import check, migrate
 from stommel.cli.station.export import export
+from stommel.cli.station.import_log import import_log
 from stommel.cli.station.serve import serve
 from stommel.cli.station.token import token_app
 from stommel.cli.station.user import user_app
@@ -34,5 +35,6 @@ station_app = typer.Typer(
 station_app.command(SERVE)(serve)
 for _verb in (backup, export, check, migrate):
     station_app.command()(_verb)
+station_app.command("import")(import_log)
 station_app.add_typer(user_app, name="user")
 station_app.add_typer(token_app, name="token")

@@ -69,7 +69,7 @@ def export(
     url = database_url(settings, database, folder)
     require_there(address_of(url))
     with Archive.open(url) as archive:
-        _require_known(archive, vehicle)
+        require_known(archive, vehicle)
         write = _write_telemetry if what is What.telemetry else _write_ctd
         count = write(archive, vehicle, *span, output)
     answer: dict[str, Any] = {"vehicle": vehicle, "what": str(what), "samples": count}
@@ -89,7 +89,14 @@ def _span(begin: str, end: str) -> tuple[float, float]:
     return span
 
 
-def _require_known(archive: "Archive", vehicle: int) -> None:
+def require_known(archive: "Archive", vehicle: int) -> None:
+    """Refuse a vehicle of which the archive holds nothing.
+
+    Raises
+    ------
+    NotInArchiveError
+        It names those that are there.
+    """
     known = archive.vehicles()
     if vehicle not in known:
         among = ", ".join(f"{number} ({name})" for number, name in known.items()) or "none"
@@ -103,11 +110,14 @@ def _write_telemetry(archive: "Archive", vehicle: int, begin: float, end: float,
 
 
 def _write_ctd(archive: "Archive", vehicle: int, begin: float, end: float, output: Path) -> int:
-    from stommel.data.files import write_csv, write_netcdf
-    from stommel.station.products.samples import export_dataset
+    from stommel.data.files import write_csv_pieces, write_netcdf_pieces
+    from stommel.station.products.record import SampleRecords
+    from stommel.station.products.samples import trajectory
 
-    samples = export_dataset(archive, vehicle, begin, end)
-    if not samples.sizes["obs"]:
+    records = SampleRecords(archive)
+    count = records.count(vehicle, begin, end)
+    if not count:
         raise OutputError(f"{output}: not written: there are no samples of the CTD in this time")
-    (write_netcdf if output.suffix == ".nc" else write_csv)(samples, output)
-    return samples.sizes["obs"]
+    pieces = (trajectory(archive, vehicle, each) for each in records.pieces(vehicle, begin, end))
+    (write_netcdf_pieces if output.suffix == ".nc" else write_csv_pieces)(pieces, output)
+    return count

@@ -1,6 +1,6 @@
 """`stommel station serve`: vehicles, archive and page until Ctrl-C."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -79,15 +79,17 @@ def serve(
         "key_file": key_file, "behind_proxy": behind_proxy or None, "login": login or None,
         "vehicles": vehicles_told(link, vehicle, key, unsigned, model, speed),
     }  # fmt: skip
-    with _simulated(sitl, speed, folder, told):
-        run(load_settings(settings, told))
+    with _simulated(sitl, speed, folder, told) as ended:
+        run(load_settings(settings, told), ended)
 
 
 @contextmanager
-def _simulated(sitl: str | None, speed: float | None, folder: Path | None, told: dict[str, Any]) -> Iterator[None]:
-    """Fly a simulated glider beside the station, and add it to what the station is told."""
+def _simulated(
+    sitl: str | None, speed: float | None, folder: Path | None, told: dict[str, Any]
+) -> Iterator[Mapping[int, Callable[[], str]]]:
+    """Fly a simulated glider beside the station, and add it to what the station is told; gives why it flies no more."""
     if sitl is None:
-        yield
+        yield {}
         return
     from stommel.cli.station.simulated import SPEED, SimulatedGlider
 
@@ -95,7 +97,7 @@ def _simulated(sitl: str | None, speed: float | None, folder: Path | None, told:
     number = next(n for n in range(1, 251) if n not in {vehicle["vehicle"] for vehicle in known})
     with SimulatedGlider(sitl, speed or SPEED, folder or Path("station"), number) as glider:
         told |= {"vehicles": [*known, glider.settings], "demo": True, "folder": glider.folder}
-        yield
+        yield {number: lambda: glider.ended}
 
 
 def vehicles_told(
@@ -125,8 +127,8 @@ def vehicles_told(
     return told
 
 
-def run(settings: "StationSettings") -> None:
-    """Serve a station until it is ended."""
+def run(settings: "StationSettings", ended: Mapping[int, Callable[[], str]] | None = None) -> None:
+    """Serve a station until it is ended; `ended` tells of vehicles why they will never be heard again."""
     import logging
 
     from stommel.station.station import Station
@@ -138,6 +140,8 @@ def run(settings: "StationSettings") -> None:
     exposure.require_secret()
     logging.basicConfig(format="%(levelname)s: %(message)s", level=logging.WARNING)
     station = Station(settings)
+    for number, words in (ended or {}).items():
+        station.vehicles[number].ended = words
     try:
         exposure.require_people(station.people.users.admins())
         taken, exposure = listening(exposure)

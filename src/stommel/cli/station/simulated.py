@@ -12,13 +12,15 @@ from threading import Thread
 from types import TracebackType
 from typing import Any
 
-from stommel.errors import StommelError
+from stommel.errors import StommelError, one_line
 from stommel.files.toml_reader import read_toml
 
 SPEED = 20.0
 """Times real time, if nobody says."""
 PATIENCE = 5.0
 """Time for the glider to end by itself [s]."""
+_LONGEST_END = 4096
+"""Of what it said, in which the last line is looked for [bytes]."""
 
 
 class SimulatedGliderError(StommelError):
@@ -57,6 +59,7 @@ class SimulatedGlider:
         """What it prints."""
         self._port = _free_port()
         self._process: subprocess.Popen[bytes] | None = None
+        self._ended = ""
 
     @property
     def address(self) -> str:
@@ -79,8 +82,9 @@ class SimulatedGlider:
         """Why it flies no more; empty while it flies."""
         if self._process is None or (status := self._process.poll()) is None:
             return ""
-        told = self.words.read_text(encoding="utf-8", errors="replace").strip().splitlines()
-        return f"the simulated glider ended with status {status}: {told[-1] if told else 'it said nothing'}"
+        if not self._ended:
+            self._ended = ended_words(status, self.words)
+        return self._ended
 
     def __enter__(self) -> "SimulatedGlider":
         """Start it.
@@ -131,6 +135,26 @@ class SimulatedGlider:
             "--link", f"tcp-listen:127.0.0.1:{self._port}", "--key", os.fspath(self.key),
             "--log", os.fspath(self._folder / "log"),
         ]  # fmt: skip
+
+
+def ended_words(status: int, said: Path) -> str:
+    """Why a simulated glider flies no more, in words, from its status and the last that it said into a file."""
+    if status == 0:
+        return "the simulated flight is over; start the station again for another one"
+    if status < 0:
+        try:
+            name = signal.Signals(-status).name
+        except ValueError:
+            name = str(-status)
+        return f"the program of the simulated glider was ended from outside ({name}); start the station again"
+    try:
+        with said.open("rb") as file:
+            file.seek(max(0, said.stat().st_size - _LONGEST_END))
+            lines = file.read(_LONGEST_END).decode(errors="replace").strip().splitlines()
+    except OSError:
+        lines = []
+    told = one_line(lines[-1], 200) if lines else "it has not said why"
+    return f"the program of the simulated glider has failed: {told}; all that it said is in {said}"
 
 
 def fly(main: Callable[[], None]) -> None:

@@ -73,6 +73,7 @@ class CommandClient:
         self.notes = self._queue.notes
         """What was found damaged or wrong, in words."""
         self.timer = RetransmissionTimer()
+        self._problem, self._again = "", t
         self._heard_at = t
         self._now = self._queue.kept_at
         self._read_clock(t)
@@ -220,6 +221,8 @@ class CommandClient:
     def poll(self, t: float, outbox: Outbox) -> None:
         """Say what is due at a time [s]."""
         now = self._read_clock(t)
+        if not self._queue.is_kept and t >= self._again:
+            self._keep(t)
         self._end_unsent(t)
         for entry in self._sayable(now):
             priority = Priority.ABORT if entry.command.number == ABORT else Priority.COMMAND
@@ -260,13 +263,15 @@ class CommandClient:
         entry.asked_at, entry.due = t, t + wait
 
     def _keep(self, t: float) -> bool:
-        """Bring the queue to the disk; whether it was possible. What is not kept is found out again."""
+        """Bring the queue to the disk; whether it was possible. What is not kept is tried again."""
+        if self._problem in self.notes:
+            self.notes.remove(self._problem)
         try:
             self._queue.keep(self._shown(t))
         except OSError as error:
-            note = f"queue of commands: cannot be kept: {error.strerror or error}"
-            if note not in self.notes:
-                self.notes.append(note)
+            self._problem = f"queue of commands: cannot be kept: {error.strerror or error}"
+            self.notes.append(self._problem)
+            self._again = t + DISK_PATIENCE
             return False
         return True
 

@@ -57,6 +57,8 @@ class ShoreQueue:
         self.waiting: dict[int, Waiting] = {}
         self.kept_at = 0
         """The clock when it was last kept [ms]."""
+        self.is_kept = True
+        """Whether the disk has taken it as it is."""
         try:
             told = kept(storage, FILE)
             if told is not None:
@@ -96,8 +98,9 @@ class ShoreQueue:
             The disk does not keep it.
         """
         told = [_told(entry) for entry in self.waiting.values()]
+        self.is_kept = False
         keep(self._storage, FILE, {"kept_at": now, "commands": told})
-        self.kept_at = now
+        self.kept_at, self.is_kept = now, True
 
     def _restore(self, told: Any) -> None:
         try:

@@ -7,6 +7,7 @@ from stommel.link.files.paths import file_path
 from stommel.link.files.port import FileRefusalError, FileResult
 from stommel.link.files.progress import Progress, State
 from stommel.link.files.received_file import (
+    DiskFailedError,
     Identity,
     ReceivedFile,
     ReceivedFileError,
@@ -64,6 +65,8 @@ class Download:
         self.file: ReceivedFile | None = None
         self.state, self.reason = State.IDENTIFYING, ""
         self.is_paused = False
+        self.has_disk_failed = False
+        """Whether it has failed since the disk here did; another download of the file goes on from what has come."""
         self._starts = 0
         self._to_stop = False
         self._wanted: Identity | None = None
@@ -75,7 +78,7 @@ class Download:
             else:
                 self._wanted = None
         except ReceivedFileError as error:
-            self._end(State.FAILED, str(error))
+            self._failed(error)
         except FileRefusalError as error:  # what no message can name need not be asked for
             self._end(State.REFUSED, str(error))
 
@@ -133,7 +136,7 @@ class Download:
                 self._asking.goes_on(t)
                 self._fetch.take(received, t)
         except ReceivedFileError as error:
-            self._end(State.FAILED, str(error))
+            self._failed(error)
 
     def _identified(self, received: Received, t: float) -> None:
         result, size = FileResult(whole(received.values, "result")), whole(received.values, "size")
@@ -198,7 +201,7 @@ class Download:
             elif self._asking.is_due(t) and outbox.room(Priority.COMMAND) >= _ROOM:
                 self._ask_which(t, outbox)
         except ReceivedFileError as error:
-            self._end(State.FAILED, str(error))
+            self._failed(error)
 
     def _ask_which(self, t: float, outbox: Outbox) -> None:
         system, component = self._peer
@@ -229,6 +232,10 @@ class Download:
     @property
     def _kept(self) -> str:
         return "nothing has come" if self.file is None else f"{self.file.received.bytes} bytes are kept"
+
+    def _failed(self, error: ReceivedFileError) -> None:
+        self.has_disk_failed = isinstance(error, DiskFailedError)
+        self._end(State.FAILED, str(error))
 
     def _end(self, state: State, reason: str) -> None:
         self.state, self.reason = state, reason

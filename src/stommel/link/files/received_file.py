@@ -34,6 +34,10 @@ class ReceivedFileError(StommelError):
     """A file cannot be received, kept or finished; what has come is kept."""
 
 
+class DiskFailedError(ReceivedFileError):
+    """The disk does not take or give bytes now; what has come goes on when it does again."""
+
+
 class WrongSumError(ReceivedFileError):
     """All bytes have come, and they are not the file: all have to come again."""
 
@@ -240,7 +244,7 @@ class ReceivedFile:
     def _disk_error(self, error: OSError) -> ReceivedFileError:
         reason = error.strerror or str(error)
         kept = f"{self.received.bytes} of {self.identity.size} bytes are kept in {self._part}"
-        return ReceivedFileError(f"{self.name}: {reason}; {kept}")
+        return DiskFailedError(f"{self.name}: {reason}; {kept}")
 
 
 def identity_on_disk(disk: Disk, name: str) -> Identity | None:
@@ -248,7 +252,7 @@ def identity_on_disk(disk: Disk, name: str) -> Identity | None:
 
     Raises
     ------
-    ReceivedFileError
+    DiskFailedError
         The disk cannot be read.
     """
     try:
@@ -257,7 +261,7 @@ def identity_on_disk(disk: Disk, name: str) -> Identity | None:
     except FileNotFoundError:
         return None
     except OSError as error:
-        raise ReceivedFileError(f"{name}.part.ranges: {error.strerror or error}") from error
+        raise DiskFailedError(f"{name}.part.ranges: {error.strerror or error}") from error
     except (ValueError, TypeError):
         return None
     return identity if newline and head == _head(identity) else None

@@ -125,7 +125,7 @@ class ParameterClient:
             return
         self._single.take(received, t)
         for outcome in self._single.outcomes():
-            self._single_ended(outcome)
+            self._single_ended(outcome, t)
         refresh = self._refresh
         if refresh is not None:
             if refresh.patience.heard(t):
@@ -142,7 +142,7 @@ class ParameterClient:
             self._take_digest(refresh, received, t)
         elif running is not None and running.take(received, t):
             refresh.patience.helped()
-            self._look(refresh, running)
+            self._look(refresh, running, t)
 
     def _take_digest(self, refresh: _Refresh, received: Received, t: float) -> None:
         values, component = received.values, received.component
@@ -158,9 +158,9 @@ class ParameterClient:
             refresh.question.answered(t)
         known = self.known.sets.get(component)
         running = refresh.running[component] = Refreshing(self._system, component, values, known, self._pace)
-        self._look(refresh, running)
+        self._look(refresh, running, t)
 
-    def _look(self, refresh: _Refresh, running: Refreshing) -> None:
+    def _look(self, refresh: _Refresh, running: Refreshing, t: float) -> None:
         """Whether a component has ended, or its digest has to be asked for anew."""
         if running.contradicts:
             count = refresh.contradictions[running.component] = refresh.contradictions.get(running.component, 0) + 1
@@ -172,9 +172,9 @@ class ParameterClient:
         if running.ending is not None and running.known is not None:
             self.known.sets[running.component] = running.known
         if not refresh.lacks_digests and all(each.ending is not None for each in refresh.running.values()):
-            self._end(refresh)
+            self._end(refresh, t)
 
-    def _end(self, refresh: _Refresh, given_up: str = "") -> None:
+    def _end(self, refresh: _Refresh, t: float, given_up: str = "") -> None:
         self.refreshed = tuple(
             SetOutcome(each.component, each.name, each.ending or Ending.FAILED, each.words or given_up)
             for each in refresh.running.values()
@@ -182,15 +182,15 @@ class ParameterClient:
         if given_up and refresh.lacks_digests:
             self.refreshed += (SetOutcome(0, "vehicle", Ending.FAILED, given_up),)
         self._refresh = None
-        self.known.keep()
+        self.known.keep(t)
 
-    def _single_ended(self, outcome: SingleOutcome) -> None:
+    def _single_ended(self, outcome: SingleOutcome, t: float) -> None:
         self._ended.append(outcome)
         known = self.known.sets.get(outcome.component)
         if outcome.value is not None and known is not None:
             self.known.sets[outcome.component] = known.with_value(outcome.parameter, outcome.value)
             if outcome.ticket in self._writes:
-                self.known.keep()
+                self.known.keep(t)
         self._writes.discard(outcome.ticket)
 
     def _update(self, received: Received) -> None:
@@ -203,14 +203,15 @@ class ParameterClient:
 
     def poll(self, t: float, outbox: Outbox) -> None:
         """Ask what is due."""
+        self.known.keep_again(t)
         self._single.poll(t, outbox)
         for outcome in self._single.outcomes():
-            self._single_ended(outcome)
+            self._single_ended(outcome, t)
         refresh = self._refresh
         if refresh is None:
             return
         if given_up := refresh.patience.given_up(t):
-            self._end(refresh, given_up)
+            self._end(refresh, t, given_up)
             return
         if outbox.room(Priority.COMMAND) < 1024:
             return
@@ -223,4 +224,4 @@ class ParameterClient:
         going = next((each for each in refresh.running.values() if each.ending is None), None)
         if going is not None:
             going.poll(t, outbox, is_quiet=is_quiet)
-            self._look(refresh, going)
+            self._look(refresh, going, t)

@@ -1,7 +1,7 @@
 """Parameters as the shore knows them, kept on its disk from one day to the next."""
 
 import json
-from math import isfinite
+from math import inf, isfinite
 from typing import Any, NamedTuple
 
 from stommel.files.storage import Storage, replace_whole
@@ -19,6 +19,8 @@ from stommel.link.parameters.port import Description, ParameterKind, ParameterSt
 _FORMAT = 1
 _MOST_BYTES = 8 << 20
 """Of a file that is read."""
+DISK_PATIENCE = 10.0
+"""After which a disk that took nothing is tried again [s]."""
 
 
 class KnownSet(NamedTuple):
@@ -68,6 +70,8 @@ class KnownParameters:
         """What was wrong with the disk, in words; parameters are then asked for anew."""
         self.sets: dict[int, KnownSet] = {}
         """By component."""
+        self._problem = ""
+        self._again = inf
         self._load()
 
     def _load(self) -> None:
@@ -81,17 +85,25 @@ class KnownParameters:
         except (ValueError, KeyError, TypeError, AttributeError, ParameterValueError, RecursionError):
             self.notes.append(f"{self._name}: is damaged; parameters are asked for anew")
 
-    def keep(self) -> None:
-        """Write what is known to the disk; if it cannot be, that is noted."""
+    def keep(self, t: float) -> None:
+        """Write what is known to the disk at a time [s]; if it cannot be, that is noted, and tried again."""
         if self._storage is None:
             return
+        self._again = inf
+        if self._problem in self.notes:
+            self.notes.remove(self._problem)
         told = {"format": _FORMAT, "sets": [_told(each) for each in self.sets.values()]}
         try:
             replace_whole(self._storage, self._name, json.dumps(told, indent=1, allow_nan=False).encode())
         except OSError as error:
-            note = f"{self._name}: cannot be kept: {error.strerror or error}"
-            if note not in self.notes:
-                self.notes.append(note)
+            self._problem = f"{self._name}: cannot be kept: {error.strerror or error}"
+            self.notes.append(self._problem)
+            self._again = t + DISK_PATIENCE
+
+    def keep_again(self, t: float) -> None:
+        """Try again what could not be written, now and then."""
+        if t >= self._again:
+            self.keep(t)
 
 
 def _told(known: KnownSet) -> dict[str, Any]:

@@ -84,8 +84,9 @@ class ShoreEnd:
         self.parameters = ParameterClient(vehicle, KnownParameters(vehicle, storage), draw)
         self.orders, self.waypoints = OrdersClient(vehicle, draw), WaypointClient(vehicle)
         self.keys = KeyOffer(guard, vehicle, random_bytes)
+        self.challenge = Challenge(guard)
         self._lasting: list[Service] = [
-            Challenge(guard), self.keys, self.presence, self.time_sync, self.heard, self.commands,
+            self.challenge, self.keys, self.presence, self.time_sync, self.heard, self.commands,
             self.parameters, self.orders, self.waypoints, self.statistics,
         ]  # fmt: skip
         self._passing: list[Service] = []

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from stommel.errors import StommelError
 from stommel.files.storage import Storage
 from stommel.link.frames import RawFrame
+from stommel.link.signing.in_step import InStep
 from stommel.link.signing.keys import Key, Keys, KeyStore
 from stommel.link.signing.refusals import Refusal, Refusals
 from stommel.link.signing.signature import holds, link_and_stamp, signed
@@ -69,6 +70,7 @@ class Guard:
         self.stamps: Stamps | None = None
         self.question = b""
         """What an end in doubt asks; the answer must repeat it."""
+        self.in_step = InStep()
         self.asked: bytes | None = None
         """What the other end asks in its doubt."""
         self._store, self._storage, self._clock, self._random = store, storage, clock, random
@@ -79,7 +81,7 @@ class Guard:
         self._speaks_next = False
         self.peer_has_next = False
         """Whether the other end was heard with the new key, and the disk does not keep that yet."""
-        self._commit_at = float("-inf")
+        self._commit_at = self._use_at = float("-inf")
         if store is not None and storage is not None:
             self._open(store, storage)
 
@@ -144,13 +146,19 @@ class Guard:
     def _begin(self, keys: Keys, storage: Storage) -> None:
         self.keys = keys
         self.stamps = Stamps(storage, stamp_of(keys.made), self._clock, fresh=keys.unused)
+        self.question = self._random(NONCE)
         if self.stamps.in_doubt:
-            self.question = self._random(NONCE)
             return
         if keys.unused:
             self.stamps.keep_now()
-            if self.stamps.written:
-                self._write(keys._replace(unused=False))
+            self._use(float("-inf"))
+
+    def _use(self, t: float) -> None:
+        """Note in the key file that the key is used, once the stamps are kept: without them it then needs proof."""
+        if self.keys is None or not self.keys.unused or self.stamps is None or not self.stamps.written:
+            return
+        if t >= self._use_at and not self._write(self.keys._replace(unused=False)):
+            self._use_at = t + _COMMIT_AGAIN
 
     def replace(self, key: Key, made: int) -> None:
         """Take a key that was given on the bench; nobody has used it.
@@ -214,7 +222,9 @@ class Guard:
         key = self.keys.current
         if self.keys.next is not None and (self._speaks_next or frame[7:10] == _confirmation()):
             key = self.keys.next
-        return signed(frame, key.secret, link, self.stamps.next(t))
+        out = signed(frame, key.secret, link, self.stamps.next(t))
+        self._use(t)
+        return out
 
     def judge(self, frame: RawFrame, t: float, *, bench: bool) -> Refusal | None:
         """Why a frame is refused; None if it is let through. Counts it."""
@@ -262,12 +272,16 @@ class Guard:
         if refusal is None:
             stamps.accept(stream, stamp, t)
             self._clocks.pop(stream, None)
-        elif refusal is Refusal.UNPROVED and name == "KEY_CHALLENGE_ANSWER" and self._is_answer(frame.payload):
+            self.in_step.accepted(stream)
+            return None
+        if refusal is Refusal.UNPROVED and name == "KEY_CHALLENGE_ANSWER" and self._is_answer(frame.payload):
             stamps.prove(stream, stamp, t)
             return None
-        elif refusal in (Refusal.STALE, Refusal.FAR_FUTURE) and len(self._clocks) < MOST_STREAMS:
+        if refusal in (Refusal.STALE, Refusal.FAR_FUTURE) and len(self._clocks) < MOST_STREAMS:
             self._clocks[stream] = stamps.offset(stamp, t)
-        return refusal
+        if name == "KEY_CHALLENGE" and self.asked is not None:
+            self.in_step.asked(stream, self.asked)
+        return self.in_step.refused(stream, refusal)
 
     def _is_answer(self, payload: bytes) -> bool:
         return bool(self.question) and hmac.compare_digest(payload.ljust(NONCE, b"\0")[:NONCE], self.question)

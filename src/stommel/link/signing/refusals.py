@@ -14,6 +14,7 @@ class Refusal(StrEnum):
     REPLAYED = "not newer than one heard before"
     STALE = "too old"
     FAR_FUTURE = "too far in the future"
+    OUT_OF_STEP = "rightly signed, but said before its sender had heard us"
     UNPROVED = "not proved to be new, since our own stamps are lost"
     TOO_MANY = "from more senders than are kept"
     NO_KEY = "not to be checked, since there is no key"
@@ -21,6 +22,7 @@ class Refusal(StrEnum):
 
 
 _UNSIGNED = (Refusal.UNSIGNED, Refusal.KEY_IN_CLEAR)
+_OUT_OF_STEP = (Refusal.OUT_OF_STEP, Refusal.UNPROVED)
 _WRONGLY_SIGNED = (Refusal.WRONGLY_SIGNED, Refusal.OTHER_KEY, Refusal.NO_KEY)
 
 
@@ -45,9 +47,14 @@ class Refusals:
         return sum(self.by_reason[reason] for reason in _WRONGLY_SIGNED)
 
     @property
+    def out_of_step(self) -> int:
+        """Rightly signed, by an end that had not heard this one yet, or while this one's own stamps were lost."""
+        return sum(self.by_reason[reason] for reason in _OUT_OF_STEP)
+
+    @property
     def replayed(self) -> int:
-        """As LINK_STATISTICS tells it: all others."""
-        return self.by_reason.total() - self.unsigned - self.wrongly_signed
+        """All others."""
+        return self.by_reason.total() - self.unsigned - self.wrongly_signed - self.out_of_step
 
     @property
     def sentences(self) -> list[str]:

@@ -45,6 +45,8 @@ class NodeParameter(NamedTuple):
     low: Value | None
     high: Value | None
     unit: str
+    words: str
+    """What it means to people."""
     state: ParameterState
 
 
@@ -95,7 +97,9 @@ class NodeMirror:
     def __init__(self, node: int, encoder: Encoder, wanted: Mapping[str, Value]) -> None:
         self.node, self.client = node, ParameterClient(node, encoder)
         self.known = {
-            p.number: NodeParameter(p.number, p.name, p.type, None, None, None, None, p.unit, ParameterState.ASKED)
+            p.number: NodeParameter(
+                p.number, p.name, p.type, None, None, None, None, p.unit, p.words, ParameterState.ASKED
+            )
             for p in sorted(PARAMETERS[node])
         }
         numbers = {p.name: p.number for p in self.known.values()}

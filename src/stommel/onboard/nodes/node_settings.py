@@ -15,6 +15,7 @@ class SettingsError(StommelError):
 
 
 class _Limits(NamedTuple):
+    words: str
     low: float
     high: float
     unit: str
@@ -23,14 +24,16 @@ class _Limits(NamedTuple):
 
 
 def setting(
-    default: float, low: float, high: float, unit: str = "", number: int | None = None, factor: float = inf
+    words: str, default: float, low: float, high: float, unit: str = "", number: int | None = None, factor: float = inf
 ) -> Any:
-    """Return a field of a settings class: its limits, unit, and number as a parameter where it has one.
+    """Return a field of a settings class: its meaning, limits, unit, and number as a parameter where it has one.
+
+    The meaning is what a pilot ashore reads beside the parameter.
 
     Over the bus a setting changes by no more than a factor from what the vehicle was given: a mistyped speed must not
     keep it down.
     """
-    return field(default=default, metadata={"limits": _Limits(low, high, unit, number, factor)})
+    return field(default=default, metadata={"limits": _Limits(words, low, high, unit, number, factor)})
 
 
 @dataclass(frozen=True)
@@ -44,7 +47,7 @@ class NodeSettings:
     """
 
     def __post_init__(self) -> None:
-        for each, (low, high, unit, _, _) in _limits(self).items():
+        for each, (_, low, high, unit, _, _) in _limits(self).items():
             value = getattr(self, each)
             if not low <= value <= high:  # not a number, too
                 raise SettingsError(f"{type(self).__name__}.{each} = {value}: must be {_span(low, high, unit)}")
@@ -84,12 +87,12 @@ def _kind(value: float) -> ParameterType:
 def parameters_of(settings: NodeSettings) -> list[Parameter]:
     """What can be set of a node over the bus; the settings given are the defaults."""
     found = []
-    for name, (low, high, unit, number, factor) in _limits(settings).items():
+    for name, (words, low, high, unit, number, factor) in _limits(settings).items():
         if number is not None:
             value = getattr(settings, name)
             if factor < inf:
                 low, high = max(low, value / factor), min(high, value * factor)  # noqa: PLW2901 - the narrower ones
-            found.append(Parameter(number, name, _kind(value), value, low, high, unit))
+            found.append(Parameter(number, name, _kind(value), value, low, high, unit, words))
     return found
 
 
@@ -98,7 +101,7 @@ def objection_to(settings: type[NodeSettings], name: str, value: float) -> str:
     known = {each: limits for each, limits in _limits(settings()).items() if limits.number is not None}
     if name not in known:
         return f"is no parameter of the node{did_you_mean(name, known)} known: {', '.join(known)}"
-    low, high, unit, _, _ = known[name]
+    _, low, high, unit, _, _ = known[name]
     kind = _kind(getattr(settings(), name))
     if not low <= value <= high:
         return f"must be {_span(low, high, unit)}"
@@ -109,7 +112,7 @@ def objection_to(settings: type[NodeSettings], name: str, value: float) -> str:
 def settings_with(settings: Settings, server: ParameterServer) -> Settings:
     """Return settings with a parameter server's values."""
     values = {}
-    for name, (low, high, _, number, _) in _limits(settings).items():
+    for name, (_, low, high, _, number, _) in _limits(settings).items():
         if number is not None:
             # a limit that 32 bits hold a little too large is the limit
             values[name] = min(max(server[name], low), high)

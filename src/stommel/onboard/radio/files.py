@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeVar
 from stommel.link.files.disk import Disk
 from stommel.link.files.port import Entry, FileRefusalError, FtpError, Path
 from stommel.link.files.received_file import Identity, ReceivedFile, ReceivedFileError
-from stommel.onboard.coordination.logbook.file_names import log_name
+from stommel.messages.log.names import log_name
 from stommel.onboard.coordination.logbook.logbook import Logbook
 
 LOG, MISSIONS, INBOX = "log", "missions", "inbox"

@@ -161,7 +161,7 @@ def _described(each: NodeParameter) -> Description:
     assert default is not None
     assert low is not None
     assert high is not None
-    return Description(air_name(each.name), _KINDS[each.type], default, low, high, each.unit)
+    return Description(air_name(each.name), _KINDS[each.type], default, low, high, each.unit, each.words)
 
 
 def _value(value: Value | bool | None) -> Value | None:

@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from stommel.errors import one_line
@@ -24,6 +25,8 @@ PERIOD = 1.0
 """Between two steps of the coordinator [s]."""
 LAST_WORDS = 3.0
 """Between a restart that the shore asked for and the end, in which the link tells it [s]."""
+START_AGAIN = 10.0
+"""Between two tries to keep when the mission began, while the disk does not [s]."""
 READ_EVERY = 0.05
 """Between two looks at the ports [s]: the system keeps few bytes of a port that nobody reads."""
 
@@ -114,11 +117,12 @@ class VehicleSoftware:
             configuration.log,
             LogIdentity(__version__, database_hash(), file.vehicle, self.clock.utc()),
             t,
+            lambda at: self.clock.utc() + at - self.clock.monotonic(),
         )
         self.coordinator = Coordinator(configuration.coordinator, t, logbook=self.logbook, store=self.kept)
         for note in (*self.missions.notes, *self.kept.notes):
             self._tell(t, "store", note)
-        self._ends_at = math.inf
+        self._ends_at, self._start_again = math.inf, t
         self.links = VehicleLinks(
             configuration, self.coordinator, self.missions, lambda _: self.take_mission(self.clock.monotonic()),
             lambda at: self.clock.utc() + at - self.clock.monotonic(), ports.serial[RADIO], ports.bench, t, self._tell,
@@ -145,6 +149,13 @@ class VehicleSoftware:
             return math.inf
         expires = self.missions.expires
         return 3600.0 * hours if expires is None else min(expires - utc, 3600.0 * hours)
+
+    def _keep_start(self, t: float) -> None:
+        """Try again to keep when the mission began, where the disk did not take it."""
+        if not self.missions.start_is_kept and t >= self._start_again:
+            self._start_again = t + START_AGAIN
+            with suppress(MissionStoreError):
+                self.missions.start(self.clock.utc())
 
     def _restart(self) -> None:
         """End soon, so that the software is started anew."""
@@ -194,6 +205,7 @@ class VehicleSoftware:
         for name, data in to_ports.items():
             if name != RADIO:
                 self.ports.serial[name].write(data, t)
+        self._keep_start(t)
         figures = self.figures
         took = self.clock.monotonic() - t
         figures.decisions += 1

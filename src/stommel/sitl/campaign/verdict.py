@@ -4,9 +4,9 @@ from math import isfinite
 from typing import NamedTuple
 
 from stommel.messages.database import COORDINATOR, MOTION
+from stommel.messages.log.names import log_name
+from stommel.messages.log.reader import read_log
 from stommel.onboard.coordination.executive import State
-from stommel.onboard.coordination.logbook.file_names import log_name
-from stommel.onboard.coordination.logbook.reader import read_log
 from stommel.onboard.execution.motion_node import BLOWING
 from stommel.simulation.mission_loop import LOST, NOT_FINITE
 from stommel.sitl.faults.disk import MemoryDisk

@@ -27,7 +27,7 @@ Naming = Callable[[str], ChannelWords]
 class LimitValues(BaseModel):
     """What a channel may be, and when somebody is told that it is not."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, json_schema_serialization_defaults_required=True)
 
     low: Value | None = None
     """Least value that is allowed, in the channel's unit."""

@@ -50,7 +50,7 @@ class StationAlarms:
     naming
         What people call a channel.
     publish
-        Hands on that an alarm changed.
+        Hands on that an alarm or a limit changed.
     sender
         Who tells people that are away.
     settings, alerts
@@ -202,6 +202,7 @@ class StationAlarms:
         watched = self._watched[vehicle]
         self._limits.put(vehicle, limit, user)
         self._register.put(vehicle, watched.watch.put(limit, watched.now()))
+        self._tell_limit(vehicle, limit.channel, user, limit)
 
     def remove_limit(self, vehicle: int, channel: str, user: str) -> bool:
         """Watch a channel no more; whether it had a limit.
@@ -216,4 +217,9 @@ class StationAlarms:
             return False
         self._limits.remove(vehicle, channel, user)
         self._register.put(vehicle, watched.watch.remove(channel, watched.now()) or [])
+        self._tell_limit(vehicle, channel, user, None)
         return True
+
+    def _tell_limit(self, vehicle: int, channel: str, user: str, limit: Limit | None) -> None:
+        told = None if limit is None else limit.model_dump()
+        self._publish("limit", vehicle, {"channel": channel, "user": user, "limit": told})

@@ -85,7 +85,8 @@ def _geometry(content: Any, where: str, depth: int, budget: _Budget) -> dict[str
         parts = _list(content.get("geometries"), f"{where}.geometries")
         return {"type": kind, "geometries": [_geometry(one, at, depth + 1, budget) for at, one in parts]}
     if not isinstance(kind, str) or kind not in _DEPTH:
-        raise _refused(where, f"type = {one_line(repr(kind), 60)} is not known", _ALLOWED)
+        words = "has no type" if kind is None else f"type = {one_line(repr(kind), 60)} is not known"
+        raise _refused(where, words, _ALLOWED)
     coordinates = _coordinates(content.get("coordinates"), _DEPTH[kind], f"{where}.coordinates", budget)
     return {"type": kind, "coordinates": coordinates}
 

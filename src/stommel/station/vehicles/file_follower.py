@@ -36,6 +36,8 @@ EVERY, TOLD_EVERY = 0.2, 1.0
 MOST_OPEN = 50
 LOCAL = "file"
 SILENT = "the vehicle is not heard; it goes on by itself"
+DISK_AGAIN = 10.0
+"""After which a disk that failed is tried again [s]."""
 
 
 @dataclass
@@ -50,11 +52,21 @@ class Transfer:
     """When it was told last, by the station's clock [s]."""
     ended: FileRow | None = None
     """What became of it, until the archive has that."""
+    trouble: str = ""
+    """What the disk here said, for which it waits."""
+    again_at: float = 0.0
+    """When the disk is tried again, by the station's clock [s]."""
 
     @property
     def progress(self) -> Progress:
         """How far it is."""
         return self.service.progress
+
+    @property
+    def waits_for_disk(self) -> str:
+        """What the disk here said, for which it waits; empty if it does not."""
+        failed = isinstance(self.service, Download) and self.service.has_disk_failed
+        return self.trouble or (self.service.reason if failed else "")
 
 
 class FileFollower:
@@ -79,7 +91,7 @@ class FileFollower:
     ) -> None:
         self._rows, self._folder, self._vehicle, self._tell = rows, folder, vehicle, tell
         self._due = 0.0
-        self._left = list(left)
+        self._left, self._left_at = list(left), 0.0
         self.transfers: dict[int, Transfer] = {}
         """By number."""
         self._listings: list[tuple[Listing, Future[Sequence[Entry]]]] = []
@@ -102,11 +114,14 @@ class FileFollower:
                 content = (place / LOCAL).read_bytes()
             transfer = Transfer(row, end.upload(content, row.path), None)
         else:
-            disk = FolderDisk(place)
-            transfer = Transfer(row, end.download(row.path, disk, LOCAL), disk)
+            transfer = self._download(end, row)
         if row.state == PAUSED:
             transfer.service.pause()
         self.transfers[row.id] = transfer
+
+    def _download(self, end: ShoreEnd, row: FileRow) -> Transfer:
+        disk = FolderDisk(self._place(row.id))
+        return Transfer(row, end.download(row.path, disk, LOCAL), disk)
 
     def keep_content(self, id: int, content: bytes) -> None:
         """Keep what is to be sent, so that it goes on after a restart; in any thread.
@@ -165,12 +180,10 @@ class FileFollower:
         if real < self._due:
             return
         self._due = real + EVERY
-        while self._left:
-            self._go_on(line, self._left[-1])
-            self._left.pop()
+        self._take_up(line, real)
         for transfer in list(self.transfers.values()):
-            if transfer.ended is None and transfer.service.state.is_over:
-                transfer.ended = self._ended(line, transfer)
+            if transfer.ended is None and transfer.service.state.is_over and real >= transfer.again_at:
+                transfer = self._looked_after(line, transfer, real)  # noqa: PLW2901 - another service of the same row
             if transfer.ended is not None:
                 self._over(line.end, transfer, transfer.ended)
             else:
@@ -181,15 +194,46 @@ class FileFollower:
                     self._tell(transfer.row)
         self._look_at_listings(line, t)
 
-    def _go_on(self, line: VehicleLine, row: FileRow) -> None:
-        """Take up what was not over when the station stopped."""
+    def _take_up(self, line: VehicleLine, real: float) -> None:
+        """Take up what was not over when the station stopped; a disk that fails is tried again."""
+        while self._left and real >= self._left_at:
+            row = self._left[-1]
+            try:
+                self.begin(line.end, row)
+            except (FileNotFoundError, VehicleError) as error:
+                self._rows.change(row._replace(state=FAILED, reason=f"cannot go on: {error}"[:300]))
+            except OSError:
+                self._left_at = real + DISK_AGAIN
+                return
+            self._left.pop()
+
+    def _looked_after(self, line: VehicleLine, transfer: Transfer, real: float) -> Transfer:
+        """End a transfer whose service is over; where only the disk here has failed, go on with it after a while.
+
+        What has come stays where it is meanwhile, and is not asked for again.
+        """
+        service = transfer.service
         try:
-            self.begin(line.end, row)
-        except (OSError, VehicleError) as error:
-            self._rows.change(row._replace(state=FAILED, reason=f"cannot go on: {error}"[:300]))
+            if not (isinstance(service, Download) and service.has_disk_failed):
+                transfer.ended, transfer.trouble = self._ended(line, transfer), ""
+                return transfer
+            if transfer.trouble:
+                again = self._download(line.end, transfer.row)
+                line.end.drop(service)
+                if transfer.disk is not None:
+                    transfer.disk.close()
+                if transfer.row.state == PAUSED:
+                    again.service.pause()
+                self.transfers[transfer.row.id] = again
+                return again
+            trouble = service.reason
+        except OSError as error:
+            trouble = f"cannot be stored: {error.strerror or error}"
+        transfer.trouble, transfer.again_at = trouble, real + DISK_AGAIN
+        return transfer
 
     def _ended(self, line: VehicleLine, transfer: Transfer) -> FileRow:
-        """What became of a transfer; a file that is whole is brought to its place."""
+        """What became of a transfer; a file that is whole is brought to its place. OSError: the disk fails."""
         service, row, now = transfer.service, transfer.row, line.clock.now()
         state = {State.WHOLE: WHOLE, State.REFUSED: REFUSED}.get(service.state, FAILED)
         row = row._replace(state=state, reason=service.reason, t=now)
@@ -197,10 +241,7 @@ class FileFollower:
             assert service.file is not None
             identity = service.file.identity
             row = row._replace(size=identity.size, sha256=identity.sha256)
-            try:
-                row = row._replace(stored_as=self._store(row, service.file.kept_as or LOCAL))
-            except OSError as error:
-                row = row._replace(state=FAILED, reason=f"cannot be stored: {error.strerror or error}")
+            row = row._replace(stored_as=self._store(row, service.file.kept_as or LOCAL))
         return row
 
     def _store(self, row: FileRow, name: str) -> str:
@@ -209,7 +250,9 @@ class FileFollower:
         place = Path(self._vehicle) / "files" / row.sha256[:2] / row.sha256
         target = self._folder / place
         target.parent.mkdir(parents=True, exist_ok=True)
-        (self._place(row.id) / name).replace(target)
+        came = self._place(row.id) / name
+        if came.exists() or not target.exists():  # it is there where only the last word of the disk was missing
+            came.replace(target)
         sync_names(target.parent)
         return place.as_posix()
 
@@ -255,7 +298,9 @@ def told(row: FileRow, transfer: Transfer | None) -> dict[str, object]:
             "done": now.done, "size": now.size if now.size is not None else row.size, "rate": now.rate,
             "seconds_left": now.seconds_left, "loss_share": now.loss,
         }  # fmt: skip
-        if now.is_paused and row.state != PAUSED:
+        if trouble := transfer.waits_for_disk:
+            found["reason"] = f"{trouble}; it goes on by itself when the disk is well again"
+        elif now.is_paused and row.state != PAUSED:
             found["reason"] = SILENT
         elif row.state != PAUSED:
             found["reason"] = now.state.value

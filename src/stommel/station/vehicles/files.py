@@ -1,7 +1,7 @@
 """Files of vehicles as people fetch and send them; what came whole lies ashore by its hash."""
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import TimeoutError as TooLate
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask
 from stommel.station.vehicles.file_follower import MOST_OPEN, FileFollower, told
-from stommel.station.vehicles.file_rows import DOWNLOAD, FAILED, GOING, UPLOAD, FileRow, FileRows
+from stommel.station.vehicles.file_rows import DOWNLOAD, FAILED, GOING, UPLOAD, WHOLE, FileRow, FileRows
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.opening import LateError, MissingError, VehicleError, vehicle_folder
 
@@ -44,6 +44,8 @@ class Files:
     def __init__(self, archive: Archive, hub: Hub, lines: Mapping[int, VehicleLine], folder: Path) -> None:
         self._rows, self._hub, self._lines, self._folder = FileRows(archive), hub, lines, folder
         self._followers: dict[int, FileFollower] = {}
+        self.arrivals: list[Callable[[FileRow], None]] = []
+        """Are told of each file that came whole, in the line's thread."""
 
     def follow(self, line: VehicleLine) -> None:
         """Take in a vehicle, before its line is started."""
@@ -183,3 +185,6 @@ class Files:
 
     def _tell(self, row: FileRow) -> None:
         self._hub.publish(Happening("transfer", row.vehicle, self.told(row)))
+        if row.state == WHOLE and row.direction == DOWNLOAD:
+            for told in self.arrivals:
+                told(row)

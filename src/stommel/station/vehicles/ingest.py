@@ -15,6 +15,8 @@ from stommel.station.clock import FIRST, LAST, VehicleClock
 
 MOST_FRAMES = 50_000
 """That wait for an archive that does not take them; beyond, the line is not read."""
+MOST_REFUSED = 10_000
+"""Looks that wait for the vehicle's clock; beyond, the oldest are forgotten that brought nothing that was believed."""
 LINK_EVERY = 10.0
 """Between two looks at the statistics of the link [s]."""
 NEAR = 60.0
@@ -52,6 +54,7 @@ class Ingest:
         self._intervals: dict[str, tuple[float, float]] = {}
         """When each message came last, and its mean interval [s]."""
         self._early: list[Early] = []
+        self._is_early = False
         self._first_boot = math.inf
         """Its time since boot when it was heard first, while its clock was not set [s]."""
         self._link_at = -math.inf
@@ -77,6 +80,8 @@ class Ingest:
         if not clock.is_set:
             if data:
                 self._early.append((data, accepted, t))
+                self._is_early |= bool(accepted)
+                self._forget_refused()
             if self._is_long_unset(accepted):
                 clock.hear(min(max(t, FIRST), LAST), t)  # without a fix it may never know
             if not clock.is_set:
@@ -85,7 +90,14 @@ class Ingest:
             self._take(*early)
         if not self._early or self._early[-1][1] is not accepted:
             self._take(data, accepted, t)
-        self._early = []
+        self._early, self._is_early = [], False
+
+    def _forget_refused(self) -> None:
+        """Keep no more than so much of what was not believed: the line is to be read until the vehicle is heard."""
+        if len(self._early) > MOST_REFUSED:
+            place = next((k for k, (_, accepted, _) in enumerate(self._early) if not accepted), None)
+            if place is not None:
+                del self._early[place]
 
     def _is_long_unset(self, accepted: Sequence[Received]) -> bool:
         """Whether the vehicle was heard for long by its own time, of which a slow simulation has less than we."""
@@ -124,8 +136,8 @@ class Ingest:
 
     @property
     def is_early(self) -> bool:
-        """Whether something waits for the vehicle's clock."""
-        return bool(self._early)
+        """Whether something that was believed waits for the vehicle's clock."""
+        return self._is_early
 
     def batch(self) -> Batch:
         """All that waits."""

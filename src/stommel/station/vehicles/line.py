@@ -84,12 +84,16 @@ class VehicleLine:
         """Looked at when all that came is kept."""
         self.tellers: list[Follower] = []
         """Looked at while the archive fails too: people shall know of it then."""
+        self.ended: Callable[[], str] = lambda: ""
+        """Tells why the vehicle will never be heard again, in words; empty while nobody knows of anything."""
         self.archive_reason = ""
         """Why what comes is not kept, in words."""
         self.failures = 0
         """Looks that went wrong."""
         self.failure = ""
         """The last of them, in words."""
+        self.clock_failure = ""
+        """Why the clock of its world is not kept now, in words."""
         self._archive, self._committed = archive, committed
         self._services = self.end.session.services
         self._transport: Transport | None = None
@@ -142,10 +146,10 @@ class VehicleLine:
         return self._status
 
     def _seen(self, t: float) -> LineStatus:
-        reason = complaint(self.end, self._transport, self._transport_reason, self.ingest.came, t)
+        reason = self.ended() or complaint(self.end, self._transport, self._transport_reason, self.ingest.came, t)
         return status_of(
             self.end, self.clock, self.ingest, self._transport, reason, self.settings.link, self.archive_reason,
-            self.failure, t,
+            self.failure or self.clock_failure, t,
         )  # fmt: skip
 
     @property
@@ -252,13 +256,17 @@ class VehicleLine:
                 self._failed(type(follower).__name__, error)
 
     def _speak(self, transport: Transport, real: float, t: float, *, kept: bool) -> None:
-        """Say what is due; while the archive takes nothing, aborts alone."""
+        """Say what is due; while the archive takes nothing, aborts alone, and what makes both ends believe each other.
+
+        A question or an answer of that kind acknowledges nothing. Without it an abort might not be believed, nor the
+        vehicle, whose clock is waited for in silence else.
+        """
         room = min(transport.room(real), AHEAD - transport.waiting(real))
         session = self.end.session
         if kept:
             out = self.end.poll(t, room)
         else:
-            services, session.services = session.services, [AbortOnly(self.end.commands)]
+            services, session.services = session.services, [AbortOnly(self.end.commands), self.end.challenge]
             try:
                 out = session.poll(t, room)
             finally:
@@ -274,8 +282,9 @@ class VehicleLine:
     def _write_clock(self) -> None:
         try:
             self.clock.keep(self._storage)
+            self.clock_failure = ""
         except OSError as error:
-            self.failure = f"clock: cannot be kept: {error.strerror or error}"
+            self.clock_failure = f"clock: cannot be kept: {error.strerror or error}"
 
     def _finish(self) -> None:
         """Store the rest, and give all back."""

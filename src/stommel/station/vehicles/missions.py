@@ -9,6 +9,7 @@ from stommel.archive import Archive
 from stommel.control.orders_file import parse_orders
 from stommel.errors import StommelError
 from stommel.link.shore.shore_end import ShoreEnd
+from stommel.plans.problems import PlanError, plan_from
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask
@@ -112,7 +113,7 @@ class Missions:
             missing = "the vehicle holds no mission"
         elif held is not None and row is None:
             missing = missing or "its orders are being fetched"
-        flown = {"waypoints": [], "fence": [], "depth_m": None} if row is None else _flown(row)
+        flown = {"waypoints": [], "geofence": [], "depth_m": None} if row is None else _flown(row)
         return {
             "number": None if held is None else held.number, "name": None if held is None else held.name or None,
             "sha256": None if held is None else held.sha256.hex(),
@@ -125,7 +126,7 @@ class Missions:
     def held_at(self, vehicle: int, t: float) -> dict[str, Any]:
         """Which mission the vehicle held at a time [s since 1970], as the API tells it."""
         row = self._rows.held_at(vehicle, t)
-        flown = {"waypoints": [], "fence": [], "depth_m": None} if row is None else _flown(row)
+        flown = {"waypoints": [], "geofence": [], "depth_m": None} if row is None else _flown(row)
         return {
             "number": None, "name": None if row is None else row.name, "sha256": None if row is None else row.sha256,
             "previous_sha256": None, "t": t, "waiting": 0, "upload": None,
@@ -167,19 +168,12 @@ class Missions:
 
 def _flown(row: MissionRow) -> dict[str, Any]:
     """What of a mission a map shows."""
-    fence = [
-        {"latitude": corner["latitude_deg"], "longitude": corner["longitude_deg"]}
-        for corner in (row.plan or {}).get("geofence", ())
-    ]
+    fence = _geofence(row.plan)
     try:
         orders, _ = parse_orders(row.orders, "orders")
     except StommelError as error:
-        return {
-            "waypoints": [],
-            "fence": fence,
-            "depth_m": None,
-            "missing": f"its orders cannot be read here: {error}"[:300],
-        }
+        missing = f"its orders cannot be read here: {error}"[:300]
+        return {"waypoints": [], "geofence": fence, "depth_m": None, "missing": missing}
     places = [
         {
             "latitude": degrees(float(latitude)), "longitude": degrees(float(longitude)),
@@ -187,4 +181,13 @@ def _flown(row: MissionRow) -> dict[str, Any]:
         }
         for latitude, longitude in orders.waypoints
     ]  # fmt: skip
-    return {"waypoints": places, "fence": fence, "depth_m": float(orders.dives.depth)}
+    return {"waypoints": places, "geofence": fence, "depth_m": float(orders.dives.depth)}
+
+
+def _geofence(plan: Mapping[str, Any] | None) -> Sequence[dict[str, float]]:
+    """Corners of the area that a plan may not leave; orders have none, nor has a plan that an older station kept."""
+    try:
+        corners = () if plan is None else plan_from(plan).geofence
+    except PlanError:
+        corners = ()
+    return [{"latitude": corner.latitude_deg, "longitude": corner.longitude_deg} for corner in corners]

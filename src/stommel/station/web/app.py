@@ -13,6 +13,7 @@ from stommel import __version__
 from stommel.station.web import live
 from stommel.station.web.access import PUBLIC, gate, least_role
 from stommel.station.web.built_page import BuiltPage
+from stommel.station.web.description import described
 from stommel.station.web.errors import add_handlers, detail_of
 from stommel.station.web.exposure import Exposure
 from stommel.station.web.guards.bodies import SoundBodies
@@ -38,21 +39,9 @@ def create_app(station: Any, exposure: Exposure | None = None) -> FastAPI:
         A route names no role that may use it.
     """
     known = exposure or Exposure()
-    app = FastAPI(
-        title="stommel shore station",
-        version=__version__,
-        summary="Vehicles at sea: what they are, what they say, what they are told.",
-        openapi_url=None,
-        docs_url=None,
-        redoc_url=None,
-        redirect_slashes=False,
-    )
+    app = api()
     app.state.station = station
     app.state.exposure = known
-    for route in api_routes():
-        _require_role(route)
-    for router in ROUTERS:
-        app.include_router(router, dependencies=[Depends(gate)])
     app.include_router(live.router)
     app.router.routes.append(Route("/{path:path}", _rest(BuiltPage()), methods=None, include_in_schema=False))
     add_handlers(app)
@@ -61,6 +50,32 @@ def create_app(station: Any, exposure: Exposure | None = None) -> FastAPI:
     app.add_middleware(GZipMiddleware, minimum_size=1000, compresslevel=4)
     app.add_middleware(Origins, exposure=known)
     app.add_middleware(StrictHeaders)
+    return app
+
+
+class _Api(FastAPI):
+    def openapi(self) -> dict[str, Any]:
+        """The document of the API, made once."""
+        if not self.openapi_schema:
+            self.openapi_schema = described(super().openapi())
+        return self.openapi_schema
+
+
+def api() -> FastAPI:
+    """The routes of the API without a station behind them, each with a role; enough for its document."""
+    app = _Api(
+        title="stommel shore station",
+        version=__version__,
+        summary="Vehicles at sea: what they are, what they say, what they are told.",
+        openapi_url=None,
+        docs_url=None,
+        redoc_url=None,
+        redirect_slashes=False,
+    )
+    for route in api_routes():
+        _require_role(route)
+    for router in ROUTERS:
+        app.include_router(router, dependencies=[Depends(gate)])
     return app
 
 

@@ -6,16 +6,15 @@ import logging
 import time
 from collections.abc import Callable, Coroutine, Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from fastapi import APIRouter, HTTPException, WebSocket, WebSocketDisconnect
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
 from starlette.concurrency import run_in_threadpool
 
 from stommel.errors import StommelError
-from stommel.station.live.hub import MOST_CHANNELS
 from stommel.station.web.access import Viewer, somebody
 from stommel.station.web.finite import finite
+from stommel.station.web.live_messages import LONGEST_ID, LiveRequest, Subscribe, Unsubscribe
 
 if TYPE_CHECKING:
     from stommel.station.live.hub import Hub
@@ -30,31 +29,6 @@ MOST_SUBSCRIPTIONS = 100
 SLOWEST = 60.0
 """Seconds that a browser may take for one message before the socket is closed."""
 _LARGEST = 65_536
-_LONGEST_ID = 64
-
-
-class Subscribe(BaseModel):
-    """Ask for channels of a vehicle, or of a replay."""
-
-    model_config = ConfigDict(extra="forbid")
-    type: Literal["subscribe"]
-    id: Annotated[str, Field(min_length=1, max_length=_LONGEST_ID)]
-    vehicle: Annotated[int, Field(ge=1, le=250)] | Annotated[str, Field(max_length=100)]
-    channels: Annotated[list[Annotated[str, Field(max_length=100)]], Field(max_length=MOST_CHANNELS)]
-    every: bool = False
-
-
-class Unsubscribe(BaseModel):
-    """Ask for no more."""
-
-    model_config = ConfigDict(extra="forbid")
-    type: Literal["unsubscribe"]
-    id: Annotated[str, Field(min_length=1, max_length=_LONGEST_ID)]
-
-
-_ASKED: TypeAdapter[Subscribe | Unsubscribe] = TypeAdapter(
-    Annotated[Subscribe | Unsubscribe, Field(discriminator="type")]
-)
 
 
 @router.websocket("/live")
@@ -115,8 +89,8 @@ class _Reader:
             return
         try:
             document = json.loads(text)
-            identity = str(document.get("id", ""))[:_LONGEST_ID] if isinstance(document, dict) else ""
-            self._do(_ASKED.validate_python(document))
+            identity = str(document.get("id", ""))[:LONGEST_ID] if isinstance(document, dict) else ""
+            self._do(LiveRequest.model_validate(document).root)
         except (ValueError, RecursionError):
             await self._object(identity, "this message is neither subscribe nor unsubscribe as the guide shows them")
         except StommelError as error:

@@ -4,24 +4,11 @@ import json
 import struct
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, NamedTuple
 from zlib import crc32
 
-from stommel.onboard.coordination.logbook.records import BYTES, KINDS, SERIES, TEXT, RecordKind
-
-MAGIC = b"stommel log 1\n"
-"""First bytes of a file."""
-SYNC = b"\xd5\xaa"
-"""First bytes of a record."""
-HEADER_KIND = 0
-"""Kind of the one record that is the file's header, in JSON."""
-HEAD = struct.Struct("<2sBHI")
-"""Sync word, kind, length of the payload [bytes], sequence number."""
-TAIL = struct.Struct("<I")
-"""CRC-32 of all between the sync word and itself."""
-LONGEST_PAYLOAD = 0xFFFF
-"""[bytes]"""
-SEQUENCES = 1 << 32
+from stommel.messages.log.layout import BYTES, HEAD, HEADER_KIND, LONGEST_PAYLOAD, MAGIC, SERIES, SYNC, TAIL, TEXT
+from stommel.onboard.coordination.logbook.records import KINDS, RecordKind
 
 Encoder = Callable[[int, tuple[Any, ...]], bytes]
 """From a sequence number and values to the bytes of a record."""
@@ -47,7 +34,18 @@ def framed(kind: int, sequence: int, payload: bytes) -> bytes:
     return SYNC + body + TAIL.pack(crc32(body))
 
 
-def header(identity: LogIdentity, restarts: int, series: int, first_sequence: int) -> bytes:
+class ClockReading(NamedTuple):
+    """What the vehicle's clock showed when a file was begun: by it the times of the file's records are dated."""
+
+    t: float
+    """Time of the software [s]."""
+    utc: float
+    """[s since 1970]"""
+
+
+def header(
+    identity: LogIdentity, restarts: int, series: int, first_sequence: int, clock: ClockReading | None = None
+) -> bytes:
     """First bytes of a file, which tell all that is needed to read it.
 
     Parameters
@@ -58,11 +56,14 @@ def header(identity: LogIdentity, restarts: int, series: int, first_sequence: in
         `ESSENTIAL`, `DETAIL` or `RAW`.
     first_sequence
         Sequence number of the file's first record.
+    clock
+        None where there is no clock.
     """
     told = asdict(identity) | {
         "restarts": restarts,
         "series": SERIES[series],
         "first_sequence": first_sequence,
+        "clock": None if clock is None else clock._asdict(),
         "kinds": [_described(kind) for kind in KINDS if kind.series == series],
     }
     return MAGIC + framed(HEADER_KIND, 0, json.dumps(told, separators=(",", ":")).encode())

@@ -4,21 +4,24 @@ No clock and no thread: records come with their time, `step` is told what time i
 """
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from stommel.errors import StommelError
 from stommel.files.storage import Storage
-from stommel.onboard.coordination.logbook.file_names import LogName, log_name
-from stommel.onboard.coordination.logbook.framing import SEQUENCES, LogIdentity, encoder, header
-from stommel.onboard.coordination.logbook.records import DETAIL, ESSENTIAL, EVENT, KINDS, RAW, SERIES, RecordKind
+from stommel.messages.log.layout import SEQUENCES, SERIES
+from stommel.messages.log.names import LogName, log_name
+from stommel.onboard.coordination.logbook.framing import ClockReading, LogIdentity, encoder, header
+from stommel.onboard.coordination.logbook.records import DETAIL, ESSENTIAL, EVENT, KINDS, RAW, RecordKind
 from stommel.onboard.coordination.logbook.series import Counts, Series, SyncPolicy
 
 _OFTEN, _AT_TIMES, _SELDOM = SyncPolicy(20, 5.0), SyncPolicy(200, 30.0), SyncPolicy(2000, 60.0)
 _HEADER_BYTES = 4096
 """More than the header of any series takes."""
+CLOCK_STEP, CLOCK_EVERY = 1.0, 60.0
+"""A clock that is set by more than this [s] begins new files, no more often than this [s]: each file has one clock."""
 
 
 class LogSettingsError(StommelError):
@@ -62,10 +65,33 @@ class Removed(NamedTuple):
 
 
 class Logbook:
-    """The log that is being written; begins new files, and never touches those of before but to remove them."""
+    """The log that is being written; begins new files, and never touches those of before but to remove them.
 
-    def __init__(self, storage: Storage, settings: LogSettings, identity: LogIdentity, t: float) -> None:
+    Parameters
+    ----------
+    storage
+        Its disk.
+    settings
+        How much it may take.
+    identity
+        What writes it.
+    t
+        Time of the software [s].
+    utc
+        UTC by the vehicle's clock [s since 1970] at a time of the software [s]; None where there is no clock.
+    """
+
+    def __init__(
+        self,
+        storage: Storage,
+        settings: LogSettings,
+        identity: LogIdentity,
+        t: float,
+        utc: Callable[[float], float] | None = None,
+    ) -> None:
         self.storage, self._settings, self._identity = storage, settings, identity
+        self._utc = utc
+        self._clock = self._read_clock(t)
         self._sizes: dict[str, int] = {}
         self.restarts = 0
         """How often a log was begun here before."""
@@ -124,6 +150,7 @@ class Logbook:
         self._listed = self._listed or self._list()
         if not self._listed:
             return
+        self._look_at_clock(t)
         self._tell(t)
         retry = t >= self._retry_at or t < self._retry_at - self._settings.retry_s
         for importance, series in enumerate(self._series):
@@ -144,7 +171,7 @@ class Logbook:
             self._files += 1
         name = series.file_name or LogName(self.restarts, self._files, SERIES[importance], False).text
         before = series.blocked_since
-        series.write(t, name, lambda: header(self._identity, self.restarts, importance, series.first_kept % SEQUENCES))
+        series.write(t, name, lambda: self._header(importance, series.first_kept, t))
         if series.file_name:
             self._sizes[name] = series.size
         self._tell_blocked(t, importance, before)
@@ -153,6 +180,22 @@ class Logbook:
         if series.failed_file:
             self._look_after(series.failed_file, series.failed_records)
             series.failed_file = ""
+
+    def _header(self, importance: int, first: int, t: float) -> bytes:
+        return header(self._identity, self.restarts, importance, first % SEQUENCES, self._read_clock(t))
+
+    def _read_clock(self, t: float) -> ClockReading | None:
+        return None if self._utc is None else ClockReading(t, self._utc(t))
+
+    def _look_at_clock(self, t: float) -> None:
+        """Begin new files when the clock was set: what is written from here on is dated by the new time."""
+        before, now = self._clock, self._read_clock(t)
+        if before is None or now is None or 0.0 <= t - before.t < CLOCK_EVERY:
+            return
+        self._clock = now
+        if abs((now.utc - now.t) - (before.utc - before.t)) > CLOCK_STEP:
+            for series in self._series:
+                series.end_file(t)
 
     def _look_after(self, name: str, records: int) -> None:
         """A file that the disk refused to go on with stays for what is in it; without any record it only takes room."""

@@ -3,14 +3,11 @@
 from dataclasses import dataclass, field
 
 from stommel.control.dive_cycle import EVENTS, PHASES
+from stommel.messages.log.layout import BYTES, TEXT
 from stommel.onboard.coordination.health import CONDITIONS, SOURCES
 
 ESSENTIAL, DETAIL, RAW = range(3)
-SERIES = ("essential", "detail", "raw")
-"""How much a record matters, as names of files: where room is needed, the least important ones go first."""
-
-TEXT, BYTES = "text", "bytes"
-"""Formats of a last field without a fixed length: UTF-8 text, or plain bytes, to the end of the record."""
+"""Numbers of `SERIES`."""
 
 
 @dataclass(frozen=True)

@@ -55,6 +55,8 @@ class MissionStore:
         """The one before, to roll back to."""
         self.started: float | None = None
         """When the active one was started [s], by the clock that told."""
+        self.start_is_kept = True
+        """Whether the disk has that; while not, `start` tries again, with the time that it was given first."""
         self._open()
         self._reception = ReceptionStore(storage)
         self._discard_what_was_switched()
@@ -221,7 +223,7 @@ class MissionStore:
         except OSError as error:
             raise MissionStoreError(f"mission: cannot be kept: {error.strerror or error}") from error
         self._highest = mission.number
-        self.active, self.previous, self.started = mission, self.active, None
+        self.active, self.previous, self.started, self.start_is_kept = mission, self.active, None, True
         kept = {self.active.number, self.previous.number if self.previous else 0}
         # what is left over is only untidy
         with suppress(OSError):
@@ -238,18 +240,20 @@ class MissionStore:
         Raises
         ------
         MissionStoreError
-            There is no mission, or the disk does not keep it.
+            There is no mission, or the disk does not keep it: it counts until the software is restarted.
         """
         if self.active is None:
             raise MissionStoreError("mission: there is none to start")
-        if self.started is not None:
+        if self.started is not None and self.start_is_kept:
             return
-        told = json.dumps({"number": self.active.number, "started": now})
+        self.started = now if self.started is None else self.started
+        self.start_is_kept = False
+        told = json.dumps({"number": self.active.number, "started": self.started})
         try:
             replace_whole(self._storage, _STARTED, sealed(told), _PART)
         except OSError as error:
             raise MissionStoreError(f"mission: its start cannot be kept: {error.strerror or error}") from error
-        self.started = now
+        self.start_is_kept = True
 
     def _read_started(self) -> float | None:
         """When the active mission was started; None if it was not, or if nobody can tell any more."""

@@ -74,6 +74,6 @@ class Reception:
         found = hashlib.sha256(self._data).hexdigest()
         if found != self.sha256:
             self._missing = [(0, len(self._data))]
-            announced = f"{self.sha256[:12]}... was announced; send it again"
-            raise ReceptionError(f"mission: sha256 = {found[:12]}...: {announced}")
+            told = f"sha256 = {found[:12]}..., not {self.sha256[:12]}..."
+            raise ReceptionError(f"mission: what has come is not the file that was sent; send it again ({told})")
         return bytes(self._data)

@@ -108,7 +108,7 @@ class ReceptionStore:
             Nothing was announced.
         """
         if self.reception is None:
-            raise ReceptionError("mission: none was announced")
+            raise ReceptionError("mission: no new one has been sent to the vehicle; send one first")
         return self.reception
 
     def discard(self) -> None:

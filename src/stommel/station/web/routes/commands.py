@@ -64,7 +64,7 @@ class Command(BaseModel):
     expires: float
     name: str
     parameters: dict[str, float]
-    when: str
+    when: Occasion
     state: str
     """given, queued, received, waiting, in_progress; and at the end done, failed, refused, expired, cancelled,
     outcome_unknown, forgotten or not_sent."""

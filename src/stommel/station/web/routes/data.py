@@ -17,9 +17,7 @@ from starlette.background import BackgroundTask
 
 from stommel.archive import schema
 from stommel.archive.times import GREATEST_TIME as LATEST
-from stommel.data.files import csv_lines, write_netcdf
-from stommel.data.gridding import section
-from stommel.data.summaries import profile_summaries
+from stommel.data.files import csv_of_pieces, write_netcdf_pieces
 from stommel.data.variables import BY_NAME
 from stommel.data.water_masses import density_lines
 from stommel.station.products.record import SampleRecords
@@ -32,6 +30,7 @@ router = APIRouter(prefix="/api", tags=["data"])
 
 MOST_POINTS = 20_000
 """Of a T-S diagram; of more every second, third ... is shown."""
+_NO_PLACE = {"latitude": None, "longitude": None}
 Sampled = Literal[
     "temperature", "conductivity", "practical_salinity", "absolute_salinity", "conservative_temperature", "density",
     "potential_density_anomaly", "sound_speed",
@@ -104,6 +103,18 @@ class Profile(BaseModel):
     """By variable, `depth` and `time` [s since 1970] among them."""
 
 
+class SectionColumn(BaseModel):
+    """A profile of a section: means of its samples."""
+
+    profile_number: int
+    profile_direction: int
+    """1 down, -1 up."""
+    time: float
+    """Mean [s since 1970]."""
+    latitude: float | None
+    longitude: float | None
+
+
 class Section(BaseModel):
     """A variable in cells of depth, a column for each profile."""
 
@@ -111,15 +122,16 @@ class Section(BaseModel):
     words: str
     unit: str
     cell_m: float
+    stride: int
+    """Of so many profiles one is shown."""
     depth_m: list[float]
     """Middles of the cells."""
-    profiles: list[dict[str, Any]]
-    """Number, direction, mean time, place."""
+    profiles: list[SectionColumn]
     values: list[list[float | None]]
     """By profile, then depth."""
 
 
-class DensityLineModel(BaseModel):
+class DensityLine(BaseModel):
     """A line of equal potential density anomaly."""
 
     level: float
@@ -131,13 +143,13 @@ class Diagram(BaseModel):
     """Conservative Temperature against Absolute Salinity."""
 
     samples: int
-    """In range; of many only some are given."""
+    """In range; of many only some are given, of very many those of some profiles."""
     absolute_salinity: list[float]
     conservative_temperature: list[float]
     depth_m: list[float]
     t: list[float]
     profile: list[int]
-    lines: list[DensityLineModel]
+    lines: list[DensityLine]
 
 
 @router.get("/vehicles/{vehicle}/dives", dependencies=[InOrder])
@@ -158,8 +170,7 @@ def read_profiles(
     line: Line, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
 ) -> list[ProfileLine]:
     """Profiles that have samples between two times; each keeps its number."""
-    found = profile_summaries(records.of(line.vehicle))
-    return [ProfileLine(**row._asdict()) for row in found if row.end >= begin and row.begin <= end]
+    return [ProfileLine(**row._asdict()) for row in records.lines(line.vehicle, begin, end)]
 
 
 @router.get("/vehicles/{vehicle}/profiles/{number}")
@@ -167,13 +178,13 @@ def read_profile(
     line: Line, records: Records, _user: Viewer, number: Annotated[int, PathValue(ge=1, le=1_000_000)]
 ) -> Profile:
     """Samples of one profile."""
-    samples = records.of(line.vehicle)
-    samples = samples.isel(obs=np.flatnonzero(samples["profile_number"].values == number))
-    if not samples.sizes["obs"]:
+    found = records.profile(line.vehicle, number)
+    if found is None:
         raise refusal(404, f"there is no profile {number}", key="number", value=number)
+    about, samples = found
     names = [str(name) for name in samples.data_vars if name in BY_NAME]
     return Profile(
-        about=ProfileLine(**profile_summaries(samples)[0]._asdict()),
+        about=ProfileLine(**about._asdict()),
         units={name: BY_NAME[name].units for name in names},
         values={name: _plain(samples[name].values) for name in [*names, "time"]},
     )
@@ -191,7 +202,7 @@ def read_section(
 ) -> Section:
     """A variable in cells of depth by profile: means of the samples in each cell."""
     try:
-        made = section(records.between(line.vehicle, begin, end), variable, cell_m=cell_m)
+        made, stride = records.section(line.vehicle, variable, begin, end, cell_m)
     except ValueError as error:
         raise refusal(422, str(error), key="cell_m", value=cell_m) from None
     columns = {str(name): _plain(made[name].values) for name in made.data_vars if made[name].dims == ("profile",)}
@@ -200,8 +211,12 @@ def read_section(
         words=BY_NAME[variable].long_name,
         unit=BY_NAME[variable].units,
         cell_m=cell_m,
+        stride=stride,
         depth_m=made["depth"].values.tolist(),
-        profiles=[dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)],
+        profiles=[
+            SectionColumn.model_validate({**_NO_PLACE, **dict(zip(columns, row, strict=True))})
+            for row in zip(*columns.values(), strict=True)
+        ],
         values=[_plain(row) for row in made[variable].values],
     )
 
@@ -209,22 +224,22 @@ def read_section(
 @router.get("/vehicles/{vehicle}/ts", dependencies=[InOrder])
 def read_water_masses(line: Line, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST) -> Diagram:
     """Conservative Temperature against Absolute Salinity, with lines of equal potential density."""
-    samples = records.between(line.vehicle, begin, end)
     names = ("absolute_salinity", "conservative_temperature", "depth", "time", "profile_number")
-    columns = [samples[name].values for name in names]
+    read = [[piece[name].values for name in names] for piece in records.thinned(line.vehicle, begin, end, names)]
+    columns = [np.concatenate(parts) for parts in zip(*read, strict=True)]
     good = np.isfinite(columns[0]) & np.isfinite(columns[1])
     stride = max(1, -(-int(good.sum()) // MOST_POINTS))
     S, T, depth, t, profile = (column[good][::stride] for column in columns)
     lines = density_lines(_margin(S), _margin(T)) if S.size else ()
     return Diagram(
-        samples=int(good.sum()),
+        samples=records.count(line.vehicle, begin, end),
         absolute_salinity=S.tolist(),
         conservative_temperature=T.tolist(),
         depth_m=np.nan_to_num(depth).tolist(),
         t=t.tolist(),
         profile=profile.tolist(),
         lines=[
-            DensityLineModel(
+            DensityLine(
                 level=found.level,
                 absolute_salinity=found.absolute_salinity.tolist(),
                 conservative_temperature=found.conservative_temperature.tolist(),
@@ -239,8 +254,8 @@ def download_csv(
     line: Line, station: TheStation, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
 ) -> StreamingResponse:
     """Samples between two times with everything derived, as CSV with the units in its head."""
-    made = trajectory(station.archive, line.vehicle, records.between(line.vehicle, begin, end))
-    return StreamingResponse(_utf8(made), media_type="text/csv", headers=_attachment(line.vehicle, "csv"))
+    pieces = (trajectory(station.archive, line.vehicle, each) for each in records.pieces(line.vehicle, begin, end))
+    return StreamingResponse(_utf8(pieces), media_type="text/csv", headers=_attachment(line.vehicle, "csv"))
 
 
 @router.get("/vehicles/{vehicle}/data.nc", response_class=FileResponse, dependencies=[InOrder])
@@ -248,10 +263,10 @@ def download_netcdf(
     line: Line, station: TheStation, records: Records, _user: Viewer, begin: Begin = 0.0, end: End = LATEST
 ) -> FileResponse:
     """Samples between two times with everything derived, as CF NetCDF."""
-    made = trajectory(station.archive, line.vehicle, records.between(line.vehicle, begin, end))
+    pieces = (trajectory(station.archive, line.vehicle, each) for each in records.pieces(line.vehicle, begin, end))
     folder = tempfile.TemporaryDirectory(prefix="stommel-")
     path = Path(folder.name) / "data.nc"
-    write_netcdf(made, path)
+    write_netcdf_pieces(pieces, path)
     return FileResponse(
         path,
         media_type="application/x-netcdf",
@@ -264,8 +279,8 @@ def _attachment(vehicle: int, ending: str) -> dict[str, str]:
     return {"Content-Disposition": f'attachment; filename="vehicle-{vehicle}.{ending}"'}
 
 
-def _utf8(made: xr.Dataset) -> Iterator[bytes]:
-    for text in csv_lines(made):
+def _utf8(pieces: Iterator[xr.Dataset]) -> Iterator[bytes]:
+    for text in csv_of_pieces(pieces):
         yield text.encode()
 
 

@@ -3,7 +3,7 @@
 from email.parser import BytesParser
 from email.policy import HTTP
 from pathlib import PurePosixPath
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Path, Query, Request
 from fastapi.concurrency import run_in_threadpool
@@ -37,6 +37,9 @@ _BODY = {
 }  # fmt: skip
 
 
+TransferState = Literal["going", "paused", "whole", "refused", "failed", "cancelled"]
+
+
 class FolderEntry(BaseModel):
     """What stands in a folder aboard."""
 
@@ -58,12 +61,11 @@ class Transfer(BaseModel):
     id: int
     vehicle: int
     path: str
-    direction: str
-    """download or upload."""
+    direction: Literal["download", "upload"]
     user: str | None
     t: float
-    state: str
-    """going or paused; at the end whole, refused, failed or cancelled."""
+    state: TransferState
+    """At the end whole, refused, failed or cancelled."""
     is_over: bool
     is_paused: bool
     reason: str
@@ -77,6 +79,20 @@ class Transfer(BaseModel):
     loss_share: float | None
 
 
+class StoredLog(BaseModel):
+    """How far a log that lies ashore is in the archive; times are of the vehicle's clock [s since 1970]."""
+
+    state: Literal["waiting", "going", "taken", "refused"]
+    words: str
+    """Whether it was whole; why it was refused."""
+    share: float
+    """Of it, that is in the archive."""
+    samples: int
+    dives: int
+    begin: float | None
+    end: float | None
+
+
 class StoredFile(BaseModel):
     """A file that lies whole ashore."""
 
@@ -87,6 +103,8 @@ class StoredFile(BaseModel):
     t: float
     state: str
     user: str | None
+    log: StoredLog | None
+    """Of a file of the vehicle's log."""
 
 
 class NewTransfer(BaseModel):
@@ -122,7 +140,9 @@ def fetch_file(user: Pilot, line: Line, station: TheStation, new: NewTransfer) -
 @router.get("/vehicles/{vehicle}/files")
 def list_files(_user: Viewer, line: Line, station: TheStation, limit: Limit = 1000) -> list[StoredFile]:
     """Return the files of a vehicle that lie whole ashore, the newest first."""
-    return [StoredFile.model_validate(row._asdict()) for row in station.files.whole(line.vehicle, limit)]
+    stored = station.files.whole(line.vehicle, limit)
+    told = station.logs.told(line.vehicle, stored)
+    return [StoredFile.model_validate(row._asdict() | {"log": told.get(row.id)}) for row in stored]
 
 
 @router.post(

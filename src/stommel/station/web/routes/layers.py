@@ -17,6 +17,8 @@ from stommel.station.web.found import TheStation
 
 router = APIRouter(prefix="/api", tags=["chart layers"])
 
+LARGEST_GEOJSON = 4 << 20
+"""Bytes; as many positions as a layer may have fit into it."""
 GREATEST_NUMBER = (1 << 53) - 1
 """Of a row; beyond it JSON's numbers are not exact."""
 LayerNumber = Annotated[int, Path(ge=1, le=GREATEST_NUMBER)]
@@ -50,7 +52,7 @@ def read_layers(_user: Viewer, station: TheStation) -> list[LayerRow]:
     return [_row(layer) for layer in Layers(station.archive).listed()]
 
 
-@router.post("/layers", status_code=201)
+@router.post("/layers", status_code=201, max_body_size=LARGEST_GEOJSON)
 def add_layer(_user: Admin, body: NewLayer, station: TheStation) -> LayerRow:
     """Add a layer of GeoJSON; its geometry is kept, and texts and numbers of its features."""
     try:

@@ -1,7 +1,7 @@
 """The radio link to a vehicle: how it is, and every frame as it was."""
 
 import math
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Query
 from pydantic import BaseModel
@@ -16,6 +16,10 @@ from stommel.station.web.found import Line, TheStation
 router = APIRouter(prefix="/api", tags=["link"])
 
 
+FieldValue = bool | int | float | str | None | list[int | float | str | None]
+"""Of a message; null for what is no number, a text for what JSON has no number for."""
+
+
 class LinkFigures(BaseModel):
     """Counts since the station was started; times in seconds, null before they were measured."""
 
@@ -27,6 +31,8 @@ class LinkFigures(BaseModel):
     unsigned_refused: int
     wrongly_signed_refused: int
     replayed_refused: int
+    out_of_step_refused: int
+    """Rightly signed, but said before the vehicle had heard this station: harmless, unless it goes on."""
     round_trip_s: float | None
     time_out_s: float | None
     goodput_b_s: float
@@ -63,7 +69,7 @@ class Frame(BaseModel):
     """In the archive; later ones have greater numbers."""
     t: float
     received: float
-    direction: str
+    direction: Literal["in", "out"]
     system: int
     component: int
     message_id: int
@@ -72,7 +78,7 @@ class Frame(BaseModel):
     signed: bool
     bytes: str
     """As it was, in hexadecimal."""
-    values: dict[str, Any]
+    values: dict[str, FieldValue]
     """Fields of the message."""
 
 
@@ -84,7 +90,8 @@ def show_link(_user: Viewer, line: Line) -> LinkAnswer:
     figures = LinkFigures(
         good=told.good, bad=told.bad, duplicate=told.duplicate, lost=told.lost, loss_share=told.loss,
         unsigned_refused=told.refusals.unsigned, wrongly_signed_refused=told.refusals.wrongly_signed,
-        replayed_refused=told.refusals.replayed, round_trip_s=_known(told.round_trip_time),
+        replayed_refused=told.refusals.replayed, out_of_step_refused=told.refusals.out_of_step,
+        round_trip_s=_known(told.round_trip_time),
         time_out_s=_known(told.time_out), goodput_b_s=told.goodput, retransmit_ratio=told.retransmit_ratio,
         bytes_waiting=told.bytes_waiting, surface_time_left_s=_known(told.surface_time_left),
         is_signing=told.is_signing,
@@ -129,8 +136,9 @@ def _told(stored: StoredFrame) -> Frame:
     payload = row.frame[HEAD : HEAD + row.frame[1]] if len(row.frame) >= HEAD + CHECKSUM else b""
     values = {} if kind is None else {name: _plain(value) for name, value in kind.unpack(payload).items()}
     return Frame(
-        number=stored.number, t=row.t, received=stored.received, direction=row.direction, system=row.system,
-        component=row.component, message_id=row.message_id, message=kind.name if kind else str(row.message_id),
+        number=stored.number, t=row.t, received=stored.received,
+        direction="out" if row.direction == "out" else "in", system=row.system, component=row.component,
+        message_id=row.message_id, message=kind.name if kind else str(row.message_id),
         sequence=row.sequence, signed=row.signed, bytes=row.frame.hex(), values=values,
     )  # fmt: skip
 

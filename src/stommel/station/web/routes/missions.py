@@ -1,6 +1,6 @@
 """Missions of a vehicle: what it holds, what it was given by whom, and giving it another."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Path, Query
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -27,6 +27,9 @@ Past = Annotated[
 ]  # fmt: skip
 
 
+MissionState = Literal["waiting", "sending", "aboard", "replaced", "refused", "failed", "interrupted"]
+
+
 class Mission(BaseModel):
     """A mission; times are of the vehicle's clock [s since 1970]."""
 
@@ -37,8 +40,7 @@ class Mission(BaseModel):
     """Who gave it; null: it was found aboard."""
     name: str
     sha256: str
-    state: str
-    """waiting, sending, aboard, replaced, refused, failed or interrupted."""
+    state: MissionState
     words: str
     """Why, or what was last told of it."""
 
@@ -69,7 +71,7 @@ class Waypoint(BaseModel):
 
 
 class Corner(BaseModel):
-    """A corner of an area [deg]."""
+    """A corner of a geofence [deg]."""
 
     latitude: float
     longitude: float
@@ -103,8 +105,8 @@ class MissionAboard(BaseModel):
     missing: str | None
     """Why something is not known, or what the last request came to."""
     waypoints: list[Waypoint]
-    fence: list[Corner]
-    """Corners of the area that its plan may not leave; none where the plan has none, or is not known."""
+    geofence: list[Corner]
+    """Of the plan out of which the orders were made; empty where there is none."""
     depth_m: float | None
     mission: Mission | None
     """Of these orders, where the station has them."""

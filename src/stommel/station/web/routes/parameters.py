@@ -1,6 +1,6 @@
 """Parameters of a vehicle: what each is, what it was, and setting it."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from fastapi import APIRouter, Path, Query
 from pydantic import BaseModel, ConfigDict, Field
@@ -37,8 +37,7 @@ class ComponentParameters(BaseModel):
 
     component: int
     name: str
-    state: str
-    """known, silent or being_read."""
+    state: Literal["known", "silent", "being_read"]
     whole: bool
     """Whether the last refreshing brought all of them up to date."""
     reason: str
@@ -70,8 +69,7 @@ class ParameterWrite(BaseModel):
     value: float
     user: str
     t: float
-    state: str
-    """waiting, done, refused or failed."""
+    state: Literal["waiting", "done", "refused", "failed"]
     words: str
     holds: float | None
     """Value that holds aboard, as far as the vehicle said."""

@@ -1,6 +1,6 @@
 """What is asked and answered about plans, as JSON."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, Field
 
@@ -132,8 +132,7 @@ class Job(BaseModel):
     """A job, and its result once it is done."""
 
     job: str
-    state: str
-    """waiting, starting, running, done, failed, cancelled."""
+    state: Literal["waiting", "starting", "running", "done", "failed", "cancelled"]
     share: float
     seconds_left: float | None
     result: Preview | None

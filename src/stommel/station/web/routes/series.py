@@ -78,8 +78,8 @@ def show_series(
     """
     begin, end = _range(line.clock.now(), begin, end)
     curves = {}
-    for key in _keys(channels):
-        found = station.archive.series(line.vehicle, key, begin, end, points, method)
+    for key, turn in _turns(channels).items():
+        found = station.archive.series(line.vehicle, key, begin, end, points, method, turn=turn)
         value = [None if math.isnan(each) else each for each in found.value.tolist()]
         curves[key] = Curve(t=found.t.tolist(), value=value, samples=found.samples, reduced=found.reduced)
     return SeriesAnswer(begin=begin, end=end, channels=curves)
@@ -118,7 +118,9 @@ def _range(now: float, begin: float | None, end: float | None, usual: float = HO
     return begin, end
 
 
-def _keys(text: str) -> list[str]:
+def _turns(text: str) -> dict[str, float | None]:
+    """Channels that are asked for, each with the turn after which its values begin anew."""
+    found = {}
     keys = list(dict.fromkeys(part.strip() for part in text.split(",") if part.strip()))
     if not 1 <= len(keys) <= MOST_CHANNELS:
         raise refusal(
@@ -126,7 +128,9 @@ def _keys(text: str) -> list[str]:
             allowed=f"1 to {MOST_CHANNELS}",
         )  # fmt: skip
     for key in keys:
-        if channel_named(key) is None:
+        channel = channel_named(key)
+        if channel is None:
             known = ", ".join(channel.key for channel in CHANNELS)
             raise refusal(422, f"there is no channel {key[:80]}", key="channels", value=key[:80], allowed=known)
-    return keys
+        found[key] = channel.turn
+    return found

@@ -5,7 +5,8 @@ from typing import Any
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from stommel.station.alarms.limits import LimitValues
+from stommel.station.alarms.limits import Limit
+from stommel.station.alarms.severity import Severity
 from stommel.station.channels import CHANNELS, channel_named, is_stale
 from stommel.station.shape import shape_of
 from stommel.station.states import state_machine
@@ -22,10 +23,10 @@ class VehicleAlarm(BaseModel):
 
     key: str
     words: str
-    severity: str
+    severity: Severity
 
 
-class Position(BaseModel):
+class VehiclePosition(BaseModel):
     """Where a vehicle is."""
 
     latitude: float
@@ -98,7 +99,7 @@ class VehicleSummary(BaseModel):
     waypoint: int | None
     mission: int | None
     alarms: list[VehicleAlarm]
-    position: Position | None
+    position: VehiclePosition | None
     battery: Battery | None
     next_surfacing: Expected | None
     speed_made_good: SpeedMadeGood | None
@@ -120,7 +121,10 @@ class ChannelInfo(BaseModel):
     period_s: float
     low: float
     high: float
-    values: dict[int, str] | None = None
+    turn: float | None
+    """After which values begin anew, as of a heading."""
+    values: dict[int, str] | None
+    """What the numbers mean, where they stand for words."""
 
 
 class StateMachine(BaseModel):
@@ -164,25 +168,19 @@ class Shape(BaseModel):
     wings: WingShape | None
     rudder: RudderShape | None
     antenna_m: list[float] | None
-    moving_mass_range_m: list[float] | None
+    moving_mass_range_m: tuple[float, float] | None
     moving_mass_neutral_m: float
-    bladder_range_ml: list[float] | None
+    bladder_range_ml: tuple[float, float] | None
     bladder_m: list[float] | None
     assumed: list[str]
     """What the vehicle file does not have."""
-
-
-class LimitInfo(LimitValues):
-    """What a channel may be, and when somebody is told that it is not."""
-
-    channel: str
 
 
 class VehicleDetail(VehicleSummary):
     """How a vehicle is, and what it has."""
 
     channels: list[ChannelInfo]
-    limits: list[LimitInfo]
+    limits: list[Limit]
     shape: Shape | None
 
 
@@ -259,7 +257,7 @@ def _channels() -> list[ChannelInfo]:
     return [
         ChannelInfo(
             key=each.key, words=each.words, unit=each.unit, group=each.group, standard_name=each.standard_name,
-            period_s=each.period_s, low=each.low, high=each.high, values=dict(each.values) or None,
+            period_s=each.period_s, low=each.low, high=each.high, turn=each.turn, values=dict(each.values) or None,
         )
         for each in CHANNELS
     ]  # fmt: skip

@@ -3,13 +3,13 @@
 import json
 import re
 import struct
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 from zlib import crc32
 
 from stommel.errors import FileError, Problem
-from stommel.onboard.coordination.logbook.framing import HEAD, HEADER_KIND, MAGIC, SEQUENCES, SYNC, TAIL
-from stommel.onboard.coordination.logbook.records import BYTES, TEXT
+from stommel.messages.log.layout import BYTES, HEAD, HEADER_KIND, MAGIC, SEQUENCES, SYNC, TAIL, TEXT
 
 WHOLE, TRUNCATED, CORRUPT = "whole", "truncated", "corrupt"
 """A file ends with its last record; within one, as after a loss of power; or it holds what no log has written."""
@@ -113,20 +113,35 @@ def read_log(data: bytes, origin: str = "log", resynchronise: bool = False) -> L
     FileError
         It is no log.
     """
+    contents, first = opened_log(data, origin)
+    if contents.header:
+        contents.records = list(records_of(contents, data, first, resynchronise))
+    return contents
+
+
+def opened_log(data: bytes, origin: str = "log") -> tuple[LogContents, int]:
+    """Read the header alone; also where the first record begins [byte].
+
+    A header that cannot be read leaves the contents without kinds, and says in them what is wrong.
+
+    Raises
+    ------
+    FileError
+        It is no log.
+    """
     contents = LogContents()
     if not data.startswith(MAGIC):
         if not MAGIC.startswith(data.rstrip(b"\0")):
             raise FileError([Problem(origin, "", "is no log of a vehicle: it does not begin with 'stommel log 1'")])
         contents.status = TRUNCATED
-        return contents
+        return contents, len(data)
     first = _frame(data, len(MAGIC))
     if first is None or not _take_header(contents, first):
         contents.offset = len(MAGIC)
         contents.status = CORRUPT if first is not None else _status_at(data, len(MAGIC))
         contents.skipped_bytes = len(data) - len(MAGIC)
-        return contents
-    _take_records(contents, data, first.end, resynchronise)
-    return contents
+        return contents, len(data)
+    return contents, first.end
 
 
 def _take_header(contents: LogContents, frame: _Frame) -> bool:
@@ -135,7 +150,7 @@ def _take_header(contents: LogContents, frame: _Frame) -> bool:
     try:
         told = json.loads(frame.payload)
         kinds = {int(kind["number"]): _kind(kind) for kind in told["kinds"]}
-        int(told["first_sequence"])
+        int(told["first_sequence"]), str(told["series"]), str(told["software"])
     except (ValueError, TypeError, KeyError, struct.error, RecursionError):
         return False
     contents.header, contents.kinds = {key: value for key, value in told.items() if key != "kinds"}, kinds
@@ -153,25 +168,47 @@ def _kind(told: dict[str, Any]) -> ReadKind:
     return ReadKind(str(told["name"]), str(told.get("meaning", "")), fields, packed, open_end)
 
 
-def _take_records(contents: LogContents, data: bytes, offset: int, resynchronise: bool) -> None:
-    expected, good = int(contents.header["first_sequence"]), True
+def records_of(contents: LogContents, data: bytes, offset: int, resynchronise: bool = False) -> Iterator[Record]:
+    """Read record by record from where one begins; `contents` learns of each what is missing, and at the end the rest.
+
+    Parameters
+    ----------
+    contents
+        Of the header, from `opened_log`.
+    data
+        The whole file.
+    offset
+        Of the first record, or of a later one [byte].
+    resynchronise
+        Whether to go on behind what is corrupt.
+    """
+    expected, good, count = _first_sequence(contents, data, offset), True, 0
     while offset < len(data):
         frame = _frame(data, offset)
         record = _record(contents, frame, offset) if frame is not None else None
         if frame is None or record is None:
             if good:
-                good, contents.offset, contents.valid_records = False, offset, len(contents.records)
+                good, contents.offset, contents.valid_records = False, offset, count
                 contents.status = CORRUPT if frame is not None else _status_at(data, offset)
             behind = _next_valid(data, offset + 1) if resynchronise else len(data)
             contents.skipped_bytes += behind - offset
             offset = behind
             continue
-        contents.records.append(record)
         contents.missing += (frame.sequence - expected) % SEQUENCES
         expected = (frame.sequence + 1) % SEQUENCES
-        offset = frame.end
+        offset, count = frame.end, count + 1
+        yield record
     if good:
-        contents.offset, contents.valid_records = offset, len(contents.records)
+        contents.offset, contents.valid_records = offset, count
+
+
+def _first_sequence(contents: LogContents, data: bytes, offset: int) -> int:
+    """Sequence number that the record at an offset should have: of the file's first, that of its header."""
+    frame = _frame(data, offset)
+    first = _frame(data, len(MAGIC))
+    if (first is not None and first.end == offset) or frame is None:
+        return int(contents.header["first_sequence"])
+    return frame.sequence
 
 
 def _record(contents: LogContents, frame: _Frame, offset: int) -> Record | None:

@@ -3,7 +3,7 @@
 import re
 from typing import NamedTuple
 
-from stommel.onboard.coordination.logbook.records import SERIES
+from stommel.messages.log.layout import SERIES
 
 _PATTERN = re.compile(rf"(\d{{5,}})-(\d{{6,}})-({'|'.join(SERIES)})(\.sent)?\.log")
 

@@ -1,0 +1,1 @@
+"""The format of a vehicle's log: what the vehicle writes and everybody else reads."""

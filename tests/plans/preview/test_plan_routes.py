@@ -173,12 +173,12 @@ def test_the_flown_track_is_held_against_the_fence_of_the_plan(client: httpx.Cli
     track = [
         sample
         for k in range(1, 30)
-        for sample in (("latitude_deg", t + 60.0 + k, 28.7 + 0.01 * k), ("longitude_deg", t + 60.0 + k, 126.1))
+        for sample in (("latitude_deg", t + 60.0 + k, 28.7 + 0.013 * k), ("longitude_deg", t + 60.0 + k, 126.1))
     ]
     station.archive.store(1, Batch(samples=track))
     left = client.get("/api/vehicles/1/mission/comparison").raise_for_status().json()["left_geofence"]
-    assert left["lat"] > 28.8
-    assert t + 70.0 <= left["t"] <= t + 89.0
+    assert left["lat"] == pytest.approx(28.804), "the eighth of the steps of 0.013 deg"
+    assert left["t"] == t + 68.0
     then = client.get("/api/vehicles/1/mission", params={"at": t + 100.0}).raise_for_status().json()
     assert [(corner["latitude"], corner["longitude"]) for corner in then["geofence"]] == [
         (corner["latitude_deg"], corner["longitude_deg"]) for corner in fence

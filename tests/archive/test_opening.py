@@ -29,8 +29,8 @@ from stommel.archive import (
     migrating,
 )
 from stommel.archive.backup import back_up
+from stommel.archive.columns import metadata
 from stommel.archive.looking import looking
-from stommel.archive.schema import metadata
 from stommel.archive.soundness import soundness_of
 
 T = 1_700_000_000.0

@@ -7,8 +7,9 @@ import pytest
 from sqlalchemy import func, select
 
 from stommel.archive import Archive, ArchiveRequestError, Batch, CtdRow, DiveRow, FrameRow, TextRow
+from stommel.archive.columns import metadata
 from stommel.archive.readers import frames_between, samples_between
-from stommel.archive.schema import channels, frames, metadata, samples, vehicles
+from stommel.archive.schema import channels, frames, samples, vehicles
 
 T = 1_700_000_000.0
 

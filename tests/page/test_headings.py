@@ -8,12 +8,9 @@ import re
 from itertools import pairwise
 from typing import Any
 
-import pytest
-
 from tests.page.past import Past
 from tests.page.test_plots import DRAWN
-
-pytestmark = pytest.mark.timeout(180)
+from tests.page.waiting import until
 
 
 def say(page: Any, past: Past, headings: list[float]) -> None:
@@ -59,12 +56,12 @@ def upright(page: Any) -> list[int]:
 
 
 def test_a_heading_about_north_is_one_line(page: Any, past: Past, screenshot: Any) -> None:
-    page.goto(f"{past.address}/#/vehicle/1/plots?show=own&channels=heading_deg&window=live-30")
+    page.goto(f"{past.address}/#/vehicle/1/plots?show=own&channels=heading_deg&window=live-120")
     page.wait_for_selector("[data-panel] canvas")
     say(page, past, [(6.0 * math.sin(k / 3.0)) % 360.0 for k in range(30)] + [359.97])
     page.wait_for_function("() => document.querySelector('section.panel output')?.textContent.trim() === '0.0°'")
+    until(page, lambda: len(joined(drawn(page))) >= 25)
     lines = joined(drawn(page))
-    assert len(lines) >= 25
     assert max(abs(b - a) for a, b in lines) < 6.0, "a line runs across"
     labels = page.locator("section.panel output").all_inner_texts()
     assert not [text for text in labels if "360" in text]

@@ -9,10 +9,8 @@ from typing import Any, NamedTuple
 import pytest
 
 from tests.page.conftest import Screenshot
-from tests.page.manned import kind, manned, sign_in
-
-__all__ = ["manned"]
-pytestmark = pytest.mark.timeout(300)
+from tests.page.manned import kind, sign_in
+from tests.page.waiting import PATIENCE_S
 
 
 class Pilots(NamedTuple):
@@ -27,8 +25,7 @@ def pilots(page: Any, browser: Any, manned: str) -> Iterator[Pilots]:
     context = browser.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
     context.add_init_script("localStorage.setItem('stommel-tour', 'done')")
     other = context.new_page()
-    other.set_default_timeout(30_000)
-    page.set_default_timeout(30_000)
+    other.set_default_timeout(1e3 * PATIENCE_S)
     thrown: list[str] = []
     other.on("pageerror", lambda error: thrown.append(str(error)))
     sign_in(page, manned, "ling", "vehicle/1/commands")
@@ -51,6 +48,8 @@ def holds(page: Any, name: str) -> None:
 
 
 def test_command_is_handed_over_and_taken_over_before_the_eyes_of_both(pilots: Pilots, screenshot: Screenshot) -> None:
+    from playwright.sync_api import expect
+
     ling, other = pilots
     ling.get_by_role("button", name="Take command").click()
     holds(ling, "ling")
@@ -61,15 +60,15 @@ def test_command_is_handed_over_and_taken_over_before_the_eyes_of_both(pilots: P
     other.get_by_label("time, s").fill("333")
     other.get_by_text("ling holds command. Take over first, above.").wait_for()
     give = other.get_by_role("button", name="Give “radio-time”")
-    assert give.is_disabled()
-    assert other.get_by_role("button", name="Abort", exact=True).is_enabled(), "abort needs no hold"
+    expect(give).to_be_disabled()
+    expect(other.get_by_role("button", name="Abort", exact=True)).to_be_enabled()  # abort needs no hold
 
     ling.get_by_role("button", name="Hand over").click()
     holds(other, "")
     other.get_by_role("button", name="Take command").click()
     holds(ling, "max")
     ling.get_by_text("max holds command").first.wait_for()
-    assert other.get_by_label("time, s").input_value() == "333", "nothing typed is lost"
+    expect(other.get_by_label("time, s")).to_have_value("333")  # nothing typed is lost
 
     ling.goto(ling.url.replace("/commands", "/parameters"))
     holds(ling, "max")
@@ -77,7 +76,7 @@ def test_command_is_handed_over_and_taken_over_before_the_eyes_of_both(pilots: P
     ling.get_by_role("button", name="Take over…").click()
     dialog = ling.get_by_role("dialog")
     take = dialog.get_by_role("button", name="Take over")
-    assert take.is_disabled(), "only with a reason"
+    expect(take).to_be_disabled()  # only with a reason
     dialog.get_by_label("Reason").fill("change <b>of</b> watch")
     take.click()
     holds(ling, "ling")

@@ -13,12 +13,11 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.page.manned import PASSWORD, manned, sign_in
+from tests.page.manned import PASSWORD, sign_in
 from tests.page.past import Past
 from tests.page.test_plots import DRAWN
+from tests.page.waiting import until
 
-__all__ = ["manned"]
-pytestmark = pytest.mark.timeout(240)
 DAY = 86_400.0
 WRONG = """
     const Right = Date;
@@ -97,10 +96,7 @@ def test_what_is_asked_and_written_has_the_stations_time(late: Any, past: Past) 
     late.locator("[data-place]").first.wait_for()
     late.wait_for_function("() => document.querySelector('[data-place]')")
     late.get_by_label("Name of the plan").fill("By a wrong clock")
-    until = time.monotonic() + 60.0
-    while not any("plan" in body for body in bodies):
-        assert time.monotonic() < until, "no plan was checked"
-        late.wait_for_timeout(100)
+    until(late, lambda: any("plan" in body for body in bodies))
     assert all(body["plan"].get("start_time") is None for body in bodies if "plan" in body)
     late.goto(f"{past.address}/#/vehicle/1/log")
     note = late.get_by_role("textbox", name="Note")

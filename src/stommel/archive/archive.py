@@ -2,23 +2,25 @@
 
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Self
 
 from sqlalchemy import URL, Connection, Engine, select
+from sqlalchemy.exc import IntegrityError
 
 from stommel.archive import migrating
 from stommel.archive.address import address_of, file_of, shown
 from stommel.archive.connecting import WRITING, engine_of
 from stommel.archive.curves import ChannelReader
-from stommel.archive.errors import ArchiveBusyError, ArchiveFullError, telling
+from stommel.archive.errors import ArchiveBusyError, ArchiveFullError, ArchiveRequestError, telling
 from stommel.archive.latest import latest_values
 from stommel.archive.readers import StoredFrame, stored_ctd, stored_dives, stored_frames, stored_texts
 from stommel.archive.rows import Batch, CtdRow, DiveRow, TextRow
 from stommel.archive.schema import channels, vehicles
 from stommel.archive.series import Series, read_series, window_of
+from stommel.archive.sifting import Sifted, sift_batch
 from stommel.archive.storing import write_batch
 from stommel.archive.times import GREATEST_TIME
 from stommel.archive.upserting import insert_rows
@@ -43,6 +45,8 @@ class Archive:
         self._busy_timeout = busy_timeout_s
         self._one_writer = threading.Lock()
         self._numbers: dict[str, int] = {}
+        self.before_writing: Callable[[], None] = _nothing
+        """Called in each transaction that writes, before anything is written; what it raises forbids it."""
 
     @classmethod
     def open(cls, url: str, *, busy_timeout_s: float = 5.0) -> Self:
@@ -103,9 +107,15 @@ class Archive:
             with telling(self.name), self.engine.connect() as connection:
                 connection.execution_options(**{WRITING: True})
                 with connection.begin():
+                    self.before_writing()
                     yield connection
         finally:
             self._one_writer.release()
+
+    @property
+    def is_written(self) -> bool:
+        """Whether somebody here writes just now: what can wait until later waits, so that no reader does."""
+        return self._one_writer.locked()
 
     def know(self, vehicle: int, name: str, model: str) -> None:
         """Note a vehicle, or its new name; `model` is the name of its vehicle file, or empty."""
@@ -124,7 +134,7 @@ class Archive:
     def store(self, vehicle: int, batch: Batch) -> None:
         """Write what a vehicle sent, all of it or nothing; a sample at a known time replaces what was there.
 
-        Samples that are no finite number are left out, as those of a time that is none; their frames are kept.
+        Samples that are no number up to 1e290 are left out, as those of a time that is none; their frames are kept.
 
         Raises
         ------
@@ -135,6 +145,17 @@ class Archive:
         with self.writing() as connection:
             write_batch(connection, vehicle, batch, lambda keys: self._numbers_of(connection, keys, added))
         self._numbers.update(added)
+
+    def store_sound(self, vehicle: int, batch: Batch) -> Sifted:
+        """As `store`, but a row that no archive takes is left out and told, so that it holds nothing else up."""
+        try:
+            self.store(vehicle, batch)
+        except (ArchiveRequestError, IntegrityError):
+            with self.writing() as connection:  # numbers of channels are not remembered: what is left out has none
+                return sift_batch(
+                    connection, vehicle, batch, lambda keys: self._numbers_of(connection, keys, {}), self.name
+                )
+        return Sifted(batch)
 
     def latest(self, vehicle: int) -> dict[str, tuple[float, float]]:
         """Time and value of the newest sample of each channel, by its key."""
@@ -213,6 +234,10 @@ class Archive:
         for key, number in found:
             added[key] = number
         return {**self._numbers, **added}
+
+
+def _nothing() -> None:
+    """Before writing, where one may always write."""
 
 
 def _make_folder(file: Path) -> None:

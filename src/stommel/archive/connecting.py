@@ -11,7 +11,7 @@ WRITING = "stommel_writing"
 
 _GREATEST_POOL = 24
 _ONE_WRITER = 0x73746F6D6D656C
-"""Number of the lock that writers take in PostgreSQL."""
+"""Number of the lock that writers take in PostgreSQL; no other may have it, as that of the only station."""
 
 
 def engine_of(url: URL, busy_timeout_s: float) -> Engine:

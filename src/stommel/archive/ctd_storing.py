@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 
 from sqlalchemy import Connection, func, select, update
 
+from stommel.archive.numbers import known
 from stommel.archive.rows import CtdRow
 from stommel.archive.schema import ctd, ctd_hours, vehicles
 from stommel.archive.times import microseconds
@@ -36,7 +37,7 @@ def write_ctd(connection: Connection, vehicle: int, given: Sequence[CtdRow], log
     ArchiveRequestError
         A time is none.
     """
-    rows = {microseconds(row.t): (vehicle, microseconds(row.t), *row[1:], log) for row in given}
+    rows = {microseconds(row.t): (vehicle, microseconds(row.t), *known(row[1:]), log) for row in given}
     touched = set(rows)
     others = _of_the_other_way(connection, vehicle, min(rows), max(rows), from_log=log is None)
     if log is None:

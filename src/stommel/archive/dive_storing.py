@@ -5,6 +5,7 @@ from typing import Any
 
 from sqlalchemy import Connection, select
 
+from stommel.archive.numbers import known as known_numbers
 from stommel.archive.rows import DiveRow
 from stommel.archive.schema import dives
 from stommel.archive.times import microseconds
@@ -52,7 +53,7 @@ def write_dives(connection: Connection, vehicle: int, given: Sequence[DiveRow], 
 
 def _row(vehicle: int, row: DiveRow, log: int | None) -> _Row:
     end_us = None if row.t_end is None else microseconds(row.t_end)
-    return (vehicle, row.dive, microseconds(row.t_begin), end_us, *row[3:], log)
+    return (vehicle, row.dive, microseconds(row.t_begin), end_us, *known_numbers(row[3:]), log)
 
 
 def _known(connection: Connection, vehicle: int, first: int, last: int) -> list[_Row]:

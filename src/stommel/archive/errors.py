@@ -4,7 +4,7 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from sqlalchemy.exc import DBAPIError, IntegrityError
+from sqlalchemy.exc import DataError, DBAPIError, IntegrityError
 from sqlalchemy.exc import TimeoutError as NoConnectionError
 
 from stommel.errors import StommelError, one_line
@@ -45,6 +45,8 @@ def telling(name: str) -> Iterator[None]:
         yield
     except IntegrityError:
         raise
+    except (DataError, OverflowError, UnicodeEncodeError) as error:  # the last two by drivers, before they ask
+        raise ArchiveRequestError(f"{name}: a value that the database does not take: {_reason(error)}") from error
     except DBAPIError as error:
         raise _told(name, error.orig) from error
     except sqlite3.Error as error:  # while rows are read
@@ -58,10 +60,15 @@ def _told(name: str, origin: BaseException | None) -> ArchiveError:
     for kind, codes, words in _SENTENCES:
         if code.startswith(codes):
             return kind(f"{name}: {words}")
-    reason = one_line(" ".join(str(origin).split()), _LONGEST_REASON)
+    reason = _reason(origin)
     if isinstance(origin, sqlite3.Error):
         return ArchiveError(f"{name}: the archive cannot be used: {reason}")
     return ArchiveError(f"{name}: the database server does not do it: {reason}; see that it runs and lets you in")
+
+
+def _reason(error: BaseException | None) -> str:
+    origin = error.orig if isinstance(error, DBAPIError) else error
+    return one_line(" ".join(str(origin).split()), _LONGEST_REASON)
 
 
 _FULL = "the disk is full; free some room there, nothing that was stored is lost"
@@ -77,6 +84,7 @@ _SENTENCES: tuple[tuple[type[ArchiveError], tuple[str, ...], str], ...] = (
         ("SQLITE_IOERR", "58030"),
         "the disk does not take what is written; see that it is there, has room, and is sound",
     ),
+    (ArchiveRequestError, ("SQLITE_TOOBIG", "54"), "a value that is longer than the database takes"),
     (
         ArchiveError,
         ("SQLITE_CANTOPEN",),

@@ -14,40 +14,20 @@ from sqlalchemy import (
     Index,
     Integer,
     LargeBinary,
-    MetaData,
     String,
     Table,
-    Text,
     UniqueConstraint,
 )
 
-metadata = MetaData(
-    naming_convention={
-        "ix": "ix_%(table_name)s_%(column_0_N_name)s",
-        "uq": "uq_%(table_name)s_%(column_0_N_name)s",
-        "fk": "fk_%(table_name)s_%(column_0_N_name)s",
-        "pk": "pk_%(table_name)s",
-    }
-)
-
-_NUMBER = BigInteger().with_variant(Integer, "sqlite")
-"""Of rows counted by the database; only INTEGER counts by itself in SQLite."""
-
-
-def _id() -> Column[int]:
-    return Column("id", _NUMBER, primary_key=True, autoincrement=True)
-
-
-def _vehicle(*, key: bool = False, nullable: bool = False) -> Column[int]:
-    return Column("vehicle_id", Integer, ForeignKey("vehicles.id"), primary_key=key, nullable=nullable)
-
+from stommel.archive.columns import NUMBER, metadata, number_column, vehicle_column
+from stommel.archive.wording import Name, Words
 
 vehicles = Table(
     "vehicles",
     metadata,
     Column("id", Integer, primary_key=True, autoincrement=False),  # its system number on the link
-    Column("name", String, nullable=False),
-    Column("model", String, nullable=False),  # name of its vehicle file, or ""
+    Column("name", Name, nullable=False),
+    Column("model", Name, nullable=False),  # name of its vehicle file, or ""
     Column("added_us", BigInteger, nullable=False),
     Column("ctd_changes", BigInteger, nullable=False, server_default="0"),  # how often its CTD samples have changed
     Column("profiles_change", BigInteger, nullable=False, server_default="0"),  # up to which `profiles` are known
@@ -56,8 +36,8 @@ vehicles = Table(
 frames = Table(
     "frames",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("t_us", BigInteger, nullable=False),
     Column("received_us", BigInteger, nullable=False),
     Column("direction", String(3), nullable=False),  # 'in' or 'out', seen from the station
@@ -76,7 +56,7 @@ channels = Table(
     "channels",
     metadata,
     Column("id", Integer, primary_key=True, autoincrement=True),
-    Column("key", String, nullable=False, unique=True),
+    Column("key", Name, nullable=False, unique=True),
 )
 
 samples = Table(
@@ -119,18 +99,18 @@ ten_minutes = _cells("ten_minutes", "ten")
 texts = Table(
     "texts",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("t_us", BigInteger, nullable=False),
     Column("severity", Integer, nullable=False),  # MAVLink's: 0 emergency ... 7 debug
-    Column("words", Text, nullable=False),
+    Column("words", Words, nullable=False),
     Index("ix_texts_vehicle_id_t_us", "vehicle_id", "t_us"),
 )
 
 dives = Table(
     "dives",
     metadata,
-    _vehicle(key=True),
+    vehicle_column(key=True),
     Column("dive", BigInteger, primary_key=True, autoincrement=False),
     Column("t_begin_us", BigInteger, primary_key=True, autoincrement=False),
     Column("t_end_us", BigInteger),
@@ -142,19 +122,19 @@ dives = Table(
     Column("current_north_m_s", Double),
     Column("current_east_m_s", Double),
     Column("energy_j", Double),
-    Column("log_id", _NUMBER),  # of the log that told of it; none: the radio alone
+    Column("log_id", NUMBER),  # of the log that told of it; none: the radio alone
 )
 
 ctd = Table(
     "ctd",
     metadata,
-    _vehicle(key=True),
+    vehicle_column(key=True),
     Column("t_us", BigInteger, primary_key=True, autoincrement=False),
     Column("dive", BigInteger),
     Column("pressure_dbar", Double),
     Column("temperature_degc", Double),
     Column("conductivity_s_m", Double),
-    Column("log_id", _NUMBER),  # of the log that it is from; none: it came by radio
+    Column("log_id", NUMBER),  # of the log that it is from; none: it came by radio
     sqlite_with_rowid=False,
 )
 
@@ -192,15 +172,15 @@ profiles = Table(
 logs = Table(
     "logs",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("sha256", String(64), nullable=False),
-    Column("name", String, nullable=False),
+    Column("name", Name, nullable=False),
     Column("size", BigInteger, nullable=False),
-    Column("series", String, nullable=False),  # as its header says
-    Column("software", String, nullable=False),
-    Column("state", String, nullable=False),  # going, taken or refused
-    Column("words", Text, nullable=False),  # whether it was whole; why it was refused
+    Column("series", Name, nullable=False),  # as its header says
+    Column("software", Name, nullable=False),
+    Column("state", Name, nullable=False),  # going, taken or refused
+    Column("words", Words, nullable=False),  # whether it was whole; why it was refused
     Column("offset", BigInteger, nullable=False),  # up to where it is in the archive [byte]
     Column("records", BigInteger, nullable=False),
     Column("samples", BigInteger, nullable=False),
@@ -216,15 +196,15 @@ commands = Table(
     "commands",
     metadata,
     Column("id", String(16), primary_key=True),  # 64 bits in hexadecimal
-    _vehicle(),
-    Column("user", String, nullable=False),
+    vehicle_column(),
+    Column("user", Name, nullable=False),
     Column("given_us", BigInteger, nullable=False),
     Column("expires_us", BigInteger, nullable=False),
-    Column("name", String, nullable=False),
+    Column("name", Name, nullable=False),
     Column("parameters", JSON, nullable=False),
-    Column("occasion", String, nullable=False),  # when it may be executed: at_once, at_next_surfacing, until_expiry
-    Column("state", String, nullable=False),
-    Column("outcome", Text),
+    Column("occasion", Name, nullable=False),  # when it may be executed: at_once, at_next_surfacing, until_expiry
+    Column("state", Name, nullable=False),
+    Column("outcome", Words),
     Column("changed_us", BigInteger, nullable=False),
     Index("ix_commands_vehicle_id_given_us", "vehicle_id", "given_us"),
 )
@@ -232,122 +212,139 @@ commands = Table(
 command_history = Table(
     "command_history",
     metadata,
-    _id(),
+    number_column(),
     Column("command_id", String(16), ForeignKey("commands.id"), nullable=False, index=True),
     Column("t_us", BigInteger, nullable=False),
-    Column("state", String, nullable=False),
-    Column("words", Text),
+    Column("state", Name, nullable=False),
+    Column("words", Words),
 )
 
 parameters = Table(
     "parameters",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("component", Integer, nullable=False),
-    Column("name", String, nullable=False),
+    Column("name", Name, nullable=False),
     Column("value", Double, nullable=False),
-    Column("kind", String, nullable=False),
+    Column("kind", Name, nullable=False),
     Column("t_us", BigInteger, nullable=False),
-    Column("user", String),
-    Column("source", String, nullable=False),  # 'vehicle' or 'written'
+    Column("user", Name),
+    Column("source", Name, nullable=False),  # 'vehicle' or 'written'
     Index("ix_parameters_vehicle_id_component_name_t_us", "vehicle_id", "component", "name", "t_us"),
 )
 """History: the newest row of a name is what it is."""
 
+parameter_writes = Table(
+    "parameter_writes",
+    metadata,
+    number_column(),
+    vehicle_column(),
+    Column("component", Integer, nullable=False),
+    Column("name", Name, nullable=False),
+    Column("value", Double, nullable=False),
+    Column("user", Name, nullable=False),
+    Column("t_us", BigInteger, nullable=False),
+    Column("state", Name, nullable=False),
+    Column("words", Words, nullable=False),
+    Column("holds", Double),
+    Index("ix_parameter_writes_vehicle_id_id", "vehicle_id", "id"),
+)
+"""Values that people set, and what became of each."""
+
 missions = Table(
     "missions",
     metadata,
-    _id(),
-    _vehicle(),
+    number_column(),
+    vehicle_column(),
     Column("t_us", BigInteger, nullable=False),
-    Column("user", String),
-    Column("name", String, nullable=False),
+    Column("user", Name),
+    Column("name", Name, nullable=False),
     Column("sha256", String(64), nullable=False),
-    Column("orders", Text, nullable=False),
+    Column("orders", Words, nullable=False),
     Column("plan", JSON(none_as_null=True)),
     Column("preview", JSON(none_as_null=True)),
-    Column("state", String, nullable=False),
+    Column("state", Name, nullable=False),
     Index("ix_missions_vehicle_id_t_us", "vehicle_id", "t_us"),
 )
 
 mission_history = Table(
     "mission_history",
     metadata,
-    _id(),
-    Column("mission_id", _NUMBER, ForeignKey("missions.id"), nullable=False, index=True),
+    number_column(),
+    Column("mission_id", NUMBER, ForeignKey("missions.id"), nullable=False, index=True),
     Column("t_us", BigInteger, nullable=False),
-    Column("user", String),
-    Column("state", String, nullable=False),
-    Column("words", Text),
+    Column("user", Name),
+    Column("state", Name, nullable=False),
+    Column("words", Words),
 )
 
 files = Table(
     "files",
     metadata,
-    _id(),
-    _vehicle(),
-    Column("path", String, nullable=False),  # aboard the vehicle
+    number_column(),
+    vehicle_column(),
+    Column("path", Name, nullable=False),  # aboard the vehicle
     Column("size", BigInteger),
     Column("sha256", String(64)),
     Column("t_us", BigInteger, nullable=False),
     Column("direction", String(8), nullable=False),  # download or upload
-    Column("user", String),
-    Column("state", String, nullable=False),
-    Column("reason", Text),
-    Column("stored_as", String),  # below the station's folder
+    Column("user", Name),
+    Column("state", Name, nullable=False),
+    Column("reason", Words),
+    Column("stored_as", Name),  # below the station's folder
     Index("ix_files_vehicle_id_t_us", "vehicle_id", "t_us"),
 )
 
 alarms = Table(
     "alarms",
     metadata,
-    _id(),
-    _vehicle(nullable=True),  # none: of the station itself
-    Column("key", String, nullable=False),
-    Column("words", Text, nullable=False),
-    Column("severity", String, nullable=False),
+    number_column(),
+    vehicle_column(nullable=True),  # none: of the station itself
+    Column("key", Name, nullable=False),
+    Column("words", Words, nullable=False),
+    Column("severity", Name, nullable=False),
     Column("raised_us", BigInteger, nullable=False),
     Column("cleared_us", BigInteger),
     Column("acknowledged_us", BigInteger),
-    Column("acknowledged_by", String),
+    Column("acknowledged_by", Name),
     Column("value", Double),
-    Column("note", Text),
+    Column("note", Words),
     Index("ix_alarms_vehicle_id_raised_us", "vehicle_id", "raised_us"),
 )
 
 limits = Table(
     "limits",
     metadata,
-    _vehicle(key=True),
-    Column("channel", String, primary_key=True),
+    vehicle_column(key=True),
+    Column("channel", Name, primary_key=True),
     Column("low", Double),
     Column("high", Double),
     Column("hysteresis", Double, nullable=False),
     Column("delay_s", Double, nullable=False),
-    Column("severity", String, nullable=False),
+    Column("severity", Name, nullable=False),
     Column("changed_us", BigInteger, nullable=False),
-    Column("changed_by", String, nullable=False),
+    Column("changed_by", Name, nullable=False),
 )
 
 notes = Table(
     "notes",
     metadata,
-    _id(),
-    _vehicle(nullable=True),
+    number_column(),
+    vehicle_column(nullable=True),
     Column("t_us", BigInteger, nullable=False),
     Column("written_us", BigInteger, nullable=False),  # by the station's clock; t_us may be any time before
-    Column("user", String, nullable=False),
-    Column("words", Text, nullable=False),
+    Column("user", Name, nullable=False),
+    Column("words", Words, nullable=False),
     Index("ix_notes_vehicle_id_t_us", "vehicle_id", "t_us"),
 )
 
 users = Table(
     "users",
     metadata,
-    Column("name", String, primary_key=True),
-    Column("password_hash", String, nullable=False),
-    Column("role", String, nullable=False),  # viewer, pilot or admin
+    Column("name", Name, primary_key=True),
+    Column("password_hash", Name, nullable=False),
+    Column("role", Name, nullable=False),  # viewer, pilot or admin
     Column("added_us", BigInteger, nullable=False),
     Column("disabled", Boolean, nullable=False),
 )
@@ -356,21 +353,21 @@ sessions = Table(
     "sessions",
     metadata,
     Column("id_hash", String(64), primary_key=True),
-    Column("user", String, ForeignKey("users.name", ondelete="CASCADE"), nullable=False, index=True),
+    Column("user", Name, ForeignKey("users.name", ondelete="CASCADE"), nullable=False, index=True),
     Column("made_us", BigInteger, nullable=False),
     Column("expires_us", BigInteger, nullable=False),
     Column("last_used_us", BigInteger),
-    Column("address", String),
+    Column("address", Name),
 )
 
 tokens = Table(
     "tokens",
     metadata,
-    _id(),
+    number_column(),
     Column("hash", String(64), nullable=False, unique=True),
-    Column("user", String, ForeignKey("users.name", ondelete="CASCADE"), nullable=False, index=True),
-    Column("name", String, nullable=False),
-    Column("role", String, nullable=False),
+    Column("user", Name, ForeignKey("users.name", ondelete="CASCADE"), nullable=False, index=True),
+    Column("name", Name, nullable=False),
+    Column("role", Name, nullable=False),
     Column("made_us", BigInteger, nullable=False),
     Column("expires_us", BigInteger),
     Column("last_used_us", BigInteger),
@@ -380,22 +377,22 @@ holders = Table(
     "holders",
     metadata,
     Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
-    Column("user", String, nullable=False),  # no key of users: "local" is none of them
-    Column("role", String, nullable=False),
+    Column("user", Name, nullable=False),  # no key of users: "local" is none of them
+    Column("role", Name, nullable=False),
     Column("since_us", BigInteger, nullable=False),
-    Column("taken_from", String),
-    Column("reason", Text),
+    Column("taken_from", Name),
+    Column("reason", Words),
 )
 """Who holds command of a vehicle; no row where nobody does."""
 
 audit = Table(
     "audit",
     metadata,
-    _id(),
+    number_column(),
     Column("t_us", BigInteger, nullable=False, index=True),
-    Column("user", String),
-    Column("address", String),
-    Column("action", String, nullable=False),
+    Column("user", Name),
+    Column("address", Name),
+    Column("action", Name, nullable=False),
     Column("vehicle_id", Integer),  # also of a vehicle that is not there
     Column("detail", JSON(none_as_null=True)),
 )
@@ -403,9 +400,9 @@ audit = Table(
 layers = Table(
     "layers",
     metadata,
-    _id(),
-    Column("name", String, nullable=False),
-    Column("kind", String, nullable=False),  # 'geojson' or the media type of an image
+    number_column(),
+    Column("name", Name, nullable=False),
+    Column("kind", Name, nullable=False),  # 'geojson' or the media type of an image
     Column("bounds", JSON(none_as_null=True)),  # west, south, east, north [deg]
     Column("content", LargeBinary, nullable=False),
 )

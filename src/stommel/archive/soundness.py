@@ -7,9 +7,10 @@ from sqlalchemy import Connection, Select, func, inspect, select
 
 from stommel.archive.address import address_of, file_of, shown
 from stommel.archive.cells import LEVELS, Level
+from stommel.archive.columns import metadata
 from stommel.archive.looking import looking
 from stommel.archive.migrating import CURRENT, version_of
-from stommel.archive.schema import metadata, samples
+from stommel.archive.schema import samples
 
 _MOST_PROBLEMS = 10
 """Of a kind that are told."""

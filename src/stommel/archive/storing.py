@@ -1,27 +1,31 @@
 """Writing a batch: frames, samples with their minutes, texts, dives, CTD, in one transaction."""
 
-import math
 import time
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from sqlalchemy import Connection
 
 from stommel.archive.cells import Point, keep_up
 from stommel.archive.ctd_storing import write_ctd
 from stommel.archive.dive_storing import write_dives
-from stommel.archive.rows import Batch, FrameRow
+from stommel.archive.numbers import GREATEST_VALUE
+from stommel.archive.rows import Batch, CtdRow, DiveRow, FrameRow
 from stommel.archive.schema import frames, samples, texts, vehicles
 from stommel.archive.times import is_time, microseconds
 from stommel.archive.upserting import insert_rows
+from stommel.archive.wording import storable
 
 _FRAME = ("vehicle_id", "t_us", "received_us", *FrameRow._fields[1:])
 _TEXT = ("vehicle_id", "t_us", "severity", "words")
 
 
-def write_batch(
-    connection: Connection, vehicle: int, batch: Batch, numbers_of: Callable[[set[str]], Mapping[str, int]]
-) -> None:
+NumbersOf = Callable[[set[str]], Mapping[str, int]]
+"""Numbers of channels by their keys."""
+
+
+def write_batch(connection: Connection, vehicle: int, batch: Batch, numbers_of: NumbersOf) -> None:
     """Write what a vehicle sent, in the transaction of `connection`.
 
     Parameters
@@ -31,7 +35,8 @@ def write_batch(
     vehicle
         Its number; it is made known under that number if nobody did.
     batch
-        Samples that are not finite, or of no time from 1970 to 2100, are left out: the archive keeps their frame.
+        Samples that are no number up to `GREATEST_VALUE`, or of no time from 1970 to 2100, are left out: the archive
+        keeps their frame.
     numbers_of
         Numbers of channels by their keys.
 
@@ -40,30 +45,55 @@ def write_batch(
     ArchiveRequestError
         A time of a frame, a text, a dive or a CTD sample is none.
     """
+    for _, write, rows in writers(connection, vehicle, batch, numbers_of):
+        write(rows)
+
+
+Write = Callable[[Sequence[Any]], None]
+
+
+def writers(
+    connection: Connection, vehicle: int, batch: Batch, numbers_of: NumbersOf
+) -> list[tuple[str, Write, Sequence[Any]]]:
+    """For each part of a batch that has rows, in order: its name, what writes such rows, and the rows.
+
+    The vehicle is made known.
+    """
     now_us = round(time.time() * 1e6)
     unnamed = (vehicle, f"vehicle {vehicle}", "", now_us)
     insert_rows(connection, vehicles, ("id", "name", "model", "added_us"), [unnamed], "keep")
-    frame_rows = [(vehicle, microseconds(row.t), now_us, *row[1:]) for row in batch.frames]
-    insert_rows(connection, frames, _FRAME, frame_rows)
-    _write_samples(connection, vehicle, batch.samples, numbers_of)
-    text_rows = [(vehicle, microseconds(t), severity, _storable(words)) for t, severity, words in batch.texts]
-    insert_rows(connection, texts, _TEXT, text_rows)
-    if batch.dives:
-        write_dives(connection, vehicle, batch.dives, batch.log)
-    if batch.ctd:
-        write_ctd(connection, vehicle, batch.ctd, batch.log)
+
+    def write_frames(rows: Sequence[FrameRow]) -> None:
+        told = [(vehicle, microseconds(row.t), now_us, *row[1:]) for row in rows]
+        insert_rows(connection, frames, _FRAME, told)
+
+    def write_samples(rows: Sequence[tuple[str, float, float]]) -> None:
+        _write_samples(connection, vehicle, rows, numbers_of)
+
+    def write_texts(rows: Sequence[tuple[float, int, str]]) -> None:
+        told = [(vehicle, microseconds(t), severity, storable(words)) for t, severity, words in rows]
+        insert_rows(connection, texts, _TEXT, told)
+
+    def write_of_dives(rows: Sequence[DiveRow]) -> None:
+        write_dives(connection, vehicle, rows, batch.log)
+
+    def write_of_ctd(rows: Sequence[CtdRow]) -> None:
+        write_ctd(connection, vehicle, rows, batch.log)
+
+    parts: dict[str, Write] = {
+        "frames": write_frames, "samples": write_samples, "texts": write_texts, "dives": write_of_dives,
+        "ctd": write_of_ctd,
+    }  # fmt: skip
+    return [(name, write, rows) for name, write in parts.items() if (rows := getattr(batch, name))]
 
 
 def _write_samples(
-    connection: Connection,
-    vehicle: int,
-    given: Sequence[tuple[str, float, float]],
-    numbers_of: Callable[[set[str]], Mapping[str, int]],
+    connection: Connection, vehicle: int, given: Sequence[tuple[str, float, float]], numbers_of: NumbersOf
 ) -> None:
     number = numbers_of({key for key, _, _ in given}) if given else {}
     values: dict[tuple[int, int], float] = {}
     for key, t, value in given:
-        if is_time(t) and math.isfinite(value):
+        if is_time(t) and -GREATEST_VALUE <= value <= GREATEST_VALUE:
             values[number[key], round(t * 1e6)] = float(value)
     new: dict[int, list[Point]] = defaultdict(list)
     rows = []
@@ -73,8 +103,3 @@ def _write_samples(
     insert_rows(connection, samples, ("vehicle_id", "channel_id", "t_us", "value"), rows, "replace")
     if new:
         keep_up(connection, vehicle, new)
-
-
-def _storable(words: str) -> str:
-    """Words without what PostgreSQL does not take: the character 0, halves of pairs."""
-    return words.replace("\0", "").encode("utf-8", "replace").decode()

@@ -74,8 +74,8 @@ class VehicleClock:
         return self.of_link(self.link_now())
 
     def of_link(self, t: float) -> float:
-        """Time of the vehicle at a time of the link [s]."""
-        return t + (self._offset or 0.0)
+        """Time of the vehicle at a time of the link [s]; a clock that runs out of what can be shown stands still."""
+        return min(t + (self._offset or 0.0), LAST)
 
     def hear(self, utc: float, t: float) -> bool:
         """Take what the vehicle's clock showed at a time of the link [s]; whether the clock was set anew by it."""

@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import asdict
+from threading import Thread
 from typing import Any
 
 from stommel.archive import Archive, ArchiveError, Batch
@@ -12,6 +13,7 @@ from stommel.link.transports.address import read_address
 from stommel.plans.preview.previews import Previews
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
+from stommel.station.people.afterwards import Afterwards
 from stommel.station.people.holders import Hold
 from stommel.station.people.people import People
 from stommel.station.replay.replays import Replays
@@ -66,7 +68,9 @@ class Station:
             hold_archive(self.archive, self._held)
             self.previews = Previews()
             self._held.callback(self.previews.close)
-            self.people = People(self.archive, told=self._holder_changed)
+            afterwards = Afterwards()
+            self._held.callback(afterwards.stop)
+            self.people = People(self.archive, told=self._holder_changed, later=afterwards)
             self.replays = Replays(self.archive, self.hub, self.vehicles)
             self._held.callback(self.replays.stop)
             self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
@@ -184,4 +188,13 @@ class Station:
             self.alarms.stop()
             with suppress(ArchiveError):
                 self.people.audit.write_late()
+        if any(line.is_running for line in lines):
+            Thread(target=self._give_back, args=(lines,), name="station ends", daemon=True).start()
+        else:
+            self._held.close()
+
+    def _give_back(self, lines: Sequence[VehicleLine]) -> None:
+        """Keep folder and archive from another station until no line writes there any more."""
+        for line in lines:
+            line.wait()
         self._held.close()

@@ -27,6 +27,7 @@ def alarms_of(settings: StationSettings, archive: Archive, hub: Hub, title: Call
     return StationAlarms(
         archive, _words, lambda kind, vehicle, row: hub.publish(Happening(kind, vehicle, row)),
         Sender(settings.name, title, address), settings.alarms, settings.alerts,
+        settings.folder / "alerts",
     )  # fmt: skip
 
 

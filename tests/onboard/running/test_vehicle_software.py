@@ -1,13 +1,17 @@
 """The edge of the vehicle's software, on ports and a clock of the test. Oracle: what goes through them in a second."""
 
+import errno
+import os
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from stommel.files.folder_storage import FolderStorage
 from stommel.messages.codec import Decoder, Received
 from stommel.onboard.coordination.config import Configuration
 from tests.onboard.running.rig import Bus, Time, configured, software
+from tests.onboard.running.test_vehicle_links import orders
 
 
 @pytest.fixture
@@ -67,3 +71,26 @@ def test_it_knows_how_often_it_has_started(configuration: Configuration) -> None
         rig = software(configuration, Time())
         assert rig.vehicle.kept.kept.starts == starts
         rig.vehicle.run(2.0)
+
+
+def test_when_a_mission_began_is_kept_when_the_disk_takes_it(
+    configuration: Configuration, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The disk fails at its start; what a restart finds is the start, not the time at which the disk was well."""
+    time = Time()
+    rig = software(configuration, time)
+    rig.vehicle.missions.take_whole(orders(configuration.folder))
+    began = time.clock.utc()
+
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as broken:
+        broken.setattr(FolderStorage, "create", full)
+        rig.vehicle.take_mission(time.now)
+        rig.vehicle.run(15.0)
+        assert "mission: its start cannot be kept: No space left on device" in rig.said
+        assert not rig.vehicle.missions.start_is_kept
+    rig.vehicle.run(15.0)
+    assert rig.vehicle.missions.start_is_kept
+    assert software(configuration, Time()).vehicle.missions.started == began

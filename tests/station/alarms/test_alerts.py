@@ -4,6 +4,7 @@ import email
 import hashlib
 import hmac
 import json
+import re
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -21,9 +22,11 @@ from stommel.station.alarms.alert_policy import Alert, AlertPolicy
 from stommel.station.alarms.alert_settings import AlertSettings, EmailSettings, WebhookSettings
 from stommel.station.alarms.alert_words import Sender, subject, text
 from stommel.station.alarms.alerts import Alerts
-from stommel.station.alarms.delivery import MOST_WAITING, Courier, DeliveryError
-from stommel.station.alarms.webhook_way import SIGNATURE
+from stommel.station.alarms.delivery import MOST_WAITING, OLDEST_S, Courier, DeliveryError
+from stommel.station.alarms.waiting_alerts import WaitingAlerts
+from stommel.station.alarms.webhook_way import SIGNATURE, WebhookWay
 from tests.station.alarms.receivers import MailReceiver, certificate_in, mail_server, web_server
+from tests.station.stations import station
 from tests.support.ports import port_of_nobody
 from tests.support.waiting import until
 
@@ -259,7 +262,7 @@ def test_a_secret_that_is_not_there_is_named(tmp_path: Path) -> None:
 class DeadWay:
     """Never brings anything."""
 
-    name = "dead"
+    name = file = "dead"
 
     def __init__(self) -> None:
         self.tries = 0
@@ -279,3 +282,90 @@ def test_a_way_that_is_dead_holds_a_bounded_queue_and_nobody_up() -> None:
     assert courier.dropped == 2 * MOST_WAITING
     courier.stop()
     assert reports.told == ["dead: no"]
+
+
+# over a restart
+
+
+def hook_of(server: Any) -> AlertSettings:
+    return AlertSettings(webhooks=(WebhookSettings(url=f"http://127.0.0.1:{server.server_port}/alarms"),))
+
+
+def told_by(server: Any) -> list[list[tuple[str, str]]]:
+    """Kind and key of each alert of each request."""
+    bodies = [json.loads(body) for _, _, body in server.requests]
+    return [[(one["kind"], one["alarm"]["key"]) for one in body["alerts"]] for body in bodies]
+
+
+@pytest.mark.parametrize("is_killed", [False, True], ids=["stopped", "killed"])
+def test_an_alert_that_waits_when_the_station_ends_goes_out_after_it_is_started_anew(
+    tmp_path: Path, is_killed: bool
+) -> None:
+    with web_server(503) as server:
+        before = Alerts(hook_of(server), SENDER, Reports(), waits=[3600.0], folder=tmp_path / "alerts")
+        before.start()
+        before.take(DEEP)
+        until(lambda: server.requests)
+        if not is_killed:
+            before.stop()
+        after = Alerts(hook_of(server), SENDER, Reports(), folder=tmp_path / "alerts")
+        after.start()
+        until(lambda: len(server.requests) == 2)
+        after.stop()
+        again = Alerts(hook_of(server), SENDER, Reports(), folder=tmp_path / "alerts")
+        again.start()
+        again.take(replace(DEEP, key="leak"))
+        until(lambda: len(server.requests) == 3)
+        again.stop()
+        if is_killed:
+            before.stop()
+    deep = [("raised", "limit:depth_m:high")]
+    assert told_by(server) == [deep, deep, [("raised", "leak")]], "once more, and not again"
+
+
+def test_an_alert_that_waited_says_how_late_it_is_and_one_of_yesterday_is_not_told(tmp_path: Path) -> None:
+    now = time.time()
+    old, late = replace(DEEP, key="old"), replace(DEEP, key="late")
+    waited = [Alert("raised", old, 1, now - OLDEST_S - 60.0), Alert("raised", late, 1, now - 7200.0)]
+    with web_server() as server:
+        settings = hook_of(server)
+        way = WebhookWay(settings.webhooks[0], SENDER)
+        WaitingAlerts(tmp_path, way.file).write(waited)
+        alerts = Alerts(settings, SENDER, Reports(), folder=tmp_path)
+        alerts.start()
+        until(lambda: server.requests)
+        alerts.stop()
+    assert told_by(server) == [[("raised", "late")]]
+    told = json.loads(server.requests[0][2])
+    assert re.search(r"; told 12\d min late, it did not go out before", told["text"])
+    assert told["alerts"][0]["since"] == waited[1].since
+    assert WaitingAlerts(tmp_path, way.file).read() == []
+
+
+@pytest.mark.parametrize("content", [b"", b"garbage", b"{}"])
+def test_a_damaged_file_of_alerts_stops_no_new_ones(tmp_path: Path, content: bytes) -> None:
+    with web_server() as server:
+        settings = hook_of(server)
+        (tmp_path / WebhookWay(settings.webhooks[0], SENDER).file).write_bytes(content)
+        alerts = Alerts(settings, SENDER, Reports(), folder=tmp_path)
+        alerts.start()
+        alerts.take(DEEP)
+        until(lambda: server.requests)
+        alerts.stop()
+    assert told_by(server) == [[("raised", "limit:depth_m:high")]]
+
+
+def test_two_webhooks_of_one_host_have_files_of_their_own_that_tell_no_secret(tmp_path: Path) -> None:
+    files = {WebhookWay(WebhookSettings(url=f"https://example.org/{name}"), SENDER).file for name in ("s3cret", "b")}
+    assert len(files) == 2
+    assert not any("s3cret" in file for file in files)
+
+
+def test_a_station_keeps_its_alerts_in_its_folder(tmp_path: Path) -> None:
+    with web_server(*[503] * 100) as server:
+        hooks = {"webhooks": [{"url": f"http://127.0.0.1:{server.server_port}/a"}]}
+        with station(tmp_path, "tcp:127.0.0.1:9", alerts=hooks) as found:
+            found.alarms.alerts.take(DEEP)
+            until(lambda: server.requests)
+        (file,) = (tmp_path / "alerts").iterdir()
+        assert DEEP in [alert.alarm for alert in WaitingAlerts(tmp_path / "alerts", file.name).read()]

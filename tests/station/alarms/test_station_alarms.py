@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from threading import Event, Thread
 from typing import Any
 
 import pytest
@@ -213,3 +214,28 @@ def test_an_alarm_that_breaks_a_rule_of_the_archive_keeps_no_other_waiting(archi
     scene.alarms.watch(3, lambda: T0, lambda: None, ())  # no row of the archive is vehicle 3
     scene.samples(("vehicle_alarms", 1.0, 1.0), vehicle=3)
     assert [row.vehicle for row in scene.samples(("depth_m", 1.0, 250.0))] == [1]
+
+
+def test_two_people_who_change_a_limit_at_once_leave_watched_what_is_kept(
+    archive: Archive, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = Scene(archive)
+    table = scene.alarms._limits
+    put, is_written, goes_on = table.put, Event(), Event()
+
+    def slow_put(vehicle: int, limit: Limit, user: str) -> None:
+        put(vehicle, limit, user)
+        is_written.set()
+        goes_on.wait(30.0)
+
+    monkeypatch.setattr(table, "put", slow_put)
+    first = Thread(target=scene.alarms.put_limit, args=(1, DEPTH.model_copy(update={"high": 99.0}), "ada"))
+    first.start()
+    is_written.wait(30.0)
+    second = Thread(target=scene.alarms.remove_limit, args=(1, "depth_m", "paul"))
+    second.start()
+    second.join(0.5)
+    goes_on.set()
+    first.join()
+    second.join()
+    assert scene.alarms.limits_of(1) == table.limits_of(1) == []

@@ -194,3 +194,18 @@ def test_a_clock_that_was_set_back_leaves_no_value_standing() -> None:
     assert hub.values(1)["depth_m"] == (99.0, 1.0)
     hub.publish(samples("depth_m", (98.0, 2.0)))
     assert hub.values(1)["depth_m"] == (99.0, 1.0), "what comes late is not the latest"
+
+
+def test_nobody_waits_for_a_vehicle_that_is_forgotten_while_they_subscribe(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A replay that ends in the middle of a subscription closes it, or it is refused; it is not left waiting."""
+    hub = hub_of(1)
+    sweep = hub._sweep
+
+    def forget() -> None:
+        sweep()
+        hub.forget(1)
+
+    monkeypatch.setattr(hub, "_sweep", forget)
+    with pytest.raises(SubscriptionError, match="none of that number"):
+        hub.subscribe("a", 1, ["depth_m"])
+    assert hub.listeners(1) == 0

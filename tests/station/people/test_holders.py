@@ -2,6 +2,7 @@
 
 import threading
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -117,3 +118,31 @@ def test_the_last_that_is_told_is_what_is_so(people: People) -> None:
     held = holders.of(1)
     assert held is not None
     assert told[-1] == held.user == "pia"
+
+
+@pytest.mark.parametrize("doing", ["disable", "demote", "remove"])
+def test_a_station_that_dies_in_the_middle_leaves_nobody_in_command_who_may_not_fly(
+    people: People, monkeypatch: pytest.MonkeyPatch, doing: str
+) -> None:
+    """Oracle: the archive takes one transaction more, as if the power went after it."""
+    people.users.add("ada", PASSWORD, Role.ADMIN)
+    people.users.add("paul", PASSWORD, Role.PILOT)
+    people.holders.take(1, PAUL)
+    archive: Any = people.users._archive
+    writing, left = archive.writing, [1]
+
+    def once() -> Any:
+        left[0] -= 1
+        if left[0] < 0:
+            raise KeyboardInterrupt
+        return writing()
+
+    monkeypatch.setattr(archive, "writing", once)
+    with suppress(KeyboardInterrupt):
+        if doing == "remove":
+            people.remove("paul")
+        elif doing == "disable":
+            people.change("paul", disabled=True)
+        else:
+            people.change("paul", role=Role.VIEWER)
+    assert people.holders.of(1) is None

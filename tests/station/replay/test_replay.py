@@ -268,3 +268,23 @@ def _samples(socket: Any, identity: str, patience: float, most: int = 1000) -> l
             (pair,) = message["samples"].values()
             found += zip(*pair, strict=True)
     return found
+
+
+def test_a_replay_that_fails_says_so_and_is_over(station: Station, monkeypatch: pytest.MonkeyPatch) -> None:
+    station.archive.store(1, Batch(samples=DEPTHS[:100]))
+    news = station.hub.watch()
+
+    def broken(*_: object) -> None:
+        raise ZeroDivisionError("a defect")
+
+    monkeypatch.setattr(replay_module, "samples_between", broken)
+    replay = station.replays.begin("ada", 1, T0, T0 + 100.0, 10.0)
+    reader = station.hub.subscribe("a", replay.name, ["depth_m"])
+    until(lambda: station.replays.named(replay.identity) is None)
+    assert reader.is_closed
+    told = []
+    while (message := news.collect()) is not None:
+        told.append(message)
+    last = [message["data"] for message in told if message.get("kind") == "replay"][-1]
+    assert last["ended"]
+    assert "ZeroDivisionError: a defect" in last["reason"]

@@ -4,16 +4,21 @@ Oracle: the vehicle, which keeps count of what the station has said, and the row
 """
 
 import sqlite3
+import threading
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
 from sqlalchemy import func, select
 
-from stommel.archive import Archive, ArchiveBusyError, ArchiveFullError, ArchiveRequestError
+from stommel.archive import Archive, ArchiveBusyError, ArchiveFullError, ArchiveRequestError, Batch
 from stommel.archive.schema import frames
+from stommel.files.folder_lock import FolderInUseError, locked
+from stommel.station.settings import load_settings
 from stommel.station.station import Station
 from stommel.station.vehicles import ingest
+from stommel.station.vehicles.opening import VehicleError, vehicle_folder
 from tests.station.client import Client
 from tests.station.speaker import Speaker, speaker, until
 from tests.station.stations import station
@@ -185,3 +190,36 @@ def test_people_see_that_the_archive_fails_while_it_does(tmp_path: Path, monkeyp
             fail(found.archive, broken)
             vehicle.say("HEARTBEAT", type=12)
             until(lambda: "archive_failing" in told())
+
+
+def test_a_line_that_a_slow_disk_holds_keeps_its_folder_and_archive_until_it_has_ended(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another station that came meanwhile would speak to the same vehicle, and write between its rows."""
+    begun, goes_on = threading.Event(), threading.Event()
+    with speaker() as vehicle:
+        found = Station(load_settings(None, {"folder": tmp_path, "vehicles": [
+            {"vehicle": 1, "link": vehicle.address, "unsigned": True}
+        ]}))  # fmt: skip
+        store = found.archive.store
+
+        def slow(number: int, batch: Batch) -> None:
+            begun.set()
+            goes_on.wait(60.0)
+            store(number, batch)
+
+        monkeypatch.setattr(found.archive, "store", slow)
+        found.start()
+        vehicle.connect()
+        vehicle.say("GLIDER_STATE", time_boot_ms=1, depth=4.5)
+        begun.wait(60.0)
+        monkeypatch.setattr(found.vehicles[1], "stop", partial(found.vehicles[1].stop, 0.1))
+        found.stop()
+        with pytest.raises(VehicleError, match="another station uses it"), station(tmp_path, vehicle.address):
+            pass
+        with pytest.raises(FolderInUseError), locked(vehicle_folder(tmp_path, 1) / "link"):
+            pass
+        goes_on.set()
+        until(lambda: not any(thread.name == "station ends" for thread in threading.enumerate()))
+        with station(tmp_path, vehicle.address, start=False) as again:
+            assert again.archive.latest(1)["depth_m"][1] == 4.5

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from stommel.archive import ArchiveFullError
 from stommel.link.parameters.port import MOTION_COMPONENT, ParameterState
 from stommel.station.station import Station
 from tests.link.parameters.vehicle import NAMES
@@ -78,3 +79,55 @@ def test_a_dead_node_marks_only_its_own_parameters(tmp_path: Path) -> None:
 
             until(lambda: told("missing"))
             assert (told("components"), told("missing")) == ([1, 26], [25])
+
+
+@pytest.mark.parametrize(
+    ("aboard", "state", "words"),
+    [(7, "done", "the vehicle holds this value"), (2, "failed", "the vehicle holds 2")],
+    ids=["it came aboard", "it did not"],
+)
+def test_what_was_set_just_before_the_station_stopped_has_a_true_outcome(
+    tmp_path: Path, aboard: int, state: str, words: str
+) -> None:
+    """The link forgets what waits when it is started anew; what the vehicle holds then tells what became of it."""
+    with served() as vehicle:
+        with station(tmp_path, vehicle.address) as found:
+            until(lambda: is_whole(Client(found)))
+            vehicle.under_water = True
+            answer = Client(found).request("PUT", f"{MOTION}/RETRIES", json={"value": 7})
+            assert answer.json()["state"] == "waiting"
+        number = [each.id for each in NAMES[MOTION_COMPONENT][1]].index("RETRIES")
+        vehicle.parameters.values[MOTION_COMPONENT][number] = aboard
+        with station(tmp_path, vehicle.address) as again:
+            client = Client(again)
+            (waits,) = client.get("/vehicles/1/parameters")["writes"]
+            assert (waits["ticket"], waits["state"]) == (answer.json()["ticket"], "waiting")
+            assert "started anew" in waits["words"]
+            vehicle.under_water = False
+
+            def ended() -> dict[str, object]:
+                (write,) = client.get("/vehicles/1/parameters")["writes"]
+                return write if write["state"] != "waiting" else {}
+
+            until(ended, within=60.0)
+            told = ended()
+            assert (told["state"], told["holds"], told["user"]) == (state, float(aboard), "local")
+            assert words in str(told["words"])
+        with station(tmp_path, vehicle.address, start=False) as later:
+            (write,) = Client(later).get("/vehicles/1/parameters")["writes"]
+            assert write == told
+        assert vehicle.parameters.writes == []
+
+
+def test_a_value_is_not_set_that_cannot_be_written_down(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with served() as vehicle, station(tmp_path, vehicle.address) as found:
+        until(lambda: is_whole(Client(found)))
+
+        def full(*_: object) -> None:
+            raise ArchiveFullError("archive.sqlite: the disk is full")
+
+        monkeypatch.setattr(found.parameters._writes, "add", full)
+        refused = Client(found).refused("PUT", f"{MOTION}/RETRIES", 503, json={"value": 7})
+        assert "disk is full" in refused["reason"]
+        assert Client(found).get("/vehicles/1/parameters")["writes"] == []
+        assert vehicle.parameters.writes == []

@@ -4,7 +4,7 @@ from collections import deque
 
 from stommel.link.service import Received
 from stommel.station.clock import VehicleClock
-from stommel.station.vehicles.ingest import UNSET_FOR, Ingest
+from stommel.station.vehicles.ingest import MOST_EARLY, UNSET_FOR, Ingest
 
 WORLD = 1_782_864_000.0
 """What the vehicle's clock shows: months before or behind that of this machine."""
@@ -56,3 +56,16 @@ def test_a_slow_simulation_is_not_taken_for_a_vehicle_without_a_clock() -> None:
     found.hear(b"a", [depth(10.0, 12.0)], 1.8e9)
     found.hear(b"b", [depth(60.0, 13.0)], 1.8e9 + 4.0 * UNSET_FOR)
     assert found.samples == []
+
+
+def test_what_waits_for_a_clock_is_bounded_in_bytes_and_then_kept_by_ours() -> None:
+    """A line that is no more read for it would never hear the clock either."""
+    found = ingest()
+    size, told = 1 << 16, 0
+    while found.samples == [] and told <= 2 * MOST_EARLY:
+        assert not found.is_full, "the line must be read on"
+        told += size
+        found.hear(bytes(size), [depth(10.0, float(told))], 1.8e9)
+    assert told == MOST_EARLY
+    assert sum(key == "depth_m" for key, _, _ in found.samples) == MOST_EARLY // size
+    assert not found.is_early

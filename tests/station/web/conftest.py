@@ -31,6 +31,17 @@ def local(station: Station) -> Iterator[httpx.Client]:
         yield client
 
 
+@pytest.fixture(scope="module")
+def quay(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
+    """As `local`, for the tests of a module that change nothing there: one station serves them all."""
+    with (
+        silent_station(tmp_path_factory.mktemp("quay"), "tcp:127.0.0.1:9", start=False, name="Pier 3") as station,
+        served(create_app(station)) as address,
+        httpx.Client(base_url=address, timeout=60.0) as client,
+    ):
+        yield client
+
+
 _hashed_once = cache(passwords.hashed)
 """Argon2 takes its time, and four people have one password here."""
 

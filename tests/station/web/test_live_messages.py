@@ -23,6 +23,7 @@ from stommel.station.live.hub import Hub
 from stommel.station.web import live
 from stommel.station.web.app import api, create_app
 from stommel.station.web.live_messages import LiveEvent, LiveMessage
+from tests.archive.logs.written import logs as written
 from tests.station.served import Served
 from tests.station.served import served as vehicle_served
 from tests.station.speaker import until
@@ -73,7 +74,7 @@ def listening(address: str) -> Iterator[tuple[ClientConnection, Heard]]:
         yield socket, Heard(socket)
 
 
-def tell_everything(client: httpx.Client, vehicle: Served) -> None:
+def tell_everything(client: httpx.Client, vehicle: Served, log: str) -> None:
     """Let every kind of event happen but the replay."""
     client.put("/api/vehicles/1/limits/depth_m", json={"high": 10.0}).raise_for_status()
     vehicle.say("GLIDER_STATE", depth=50.0, altitude=math.nan)
@@ -82,7 +83,7 @@ def tell_everything(client: httpx.Client, vehicle: Served) -> None:
     client.post("/api/vehicles/1/commands", json={"name": "surface"}).raise_for_status()
     client.post("/api/notes", json={"vehicle": 1, "words": "seen"}).raise_for_status()
     client.post("/api/vehicles/1/mission", json={"orders": ORDERS}).raise_for_status()
-    client.post("/api/vehicles/1/transfers", json={"path": "logs/00001.log"}).raise_for_status()
+    client.post("/api/vehicles/1/transfers", json={"path": log}).raise_for_status()
     client.delete("/api/vehicles/1/holder").raise_for_status()
     client.post("/api/vehicles/1/parameters/refresh").raise_for_status()
 
@@ -90,7 +91,8 @@ def tell_everything(client: httpx.Client, vehicle: Served) -> None:
 def test_every_message_is_as_it_is_declared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(live, "PING_EVERY", 0.2)
     with vehicle_served() as vehicle:
-        vehicle.files.files["logs", "00001.log"] = bytes(5000)
+        name, log = next((name, data) for name, data in written(seconds=120).items() if "essential" in name)
+        vehicle.files.files["logs", name] = log
         with (
             station(tmp_path, vehicle.address) as found,
             served(create_app(found)) as address,
@@ -102,7 +104,7 @@ def test_every_message_is_as_it_is_declared(tmp_path: Path, monkeypatch: pytest.
             every = {"type": "subscribe", "id": "b", "vehicle": 1, "channels": ["depth_m"], "every": True}
             socket.send(json.dumps(every))
             socket.send(json.dumps({"type": "subscribe", "id": "c", "vehicle": 9, "channels": []}))
-            tell_everything(client, vehicle)
+            tell_everything(client, vehicle, f"logs/{name}")
             until(lambda: heard.has("dive"))
             past = {"vehicle": 1, "begin": 1_700_000_000.0, "end": 1_700_000_100.0}
             replay = client.post("/api/replays", json=past).raise_for_status().json()["replay"]

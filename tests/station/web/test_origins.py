@@ -32,8 +32,8 @@ def _own(client: httpx.Client) -> str:
     ],
     ids=str,
 )  # fmt: skip
-def test_other_sites_change_nothing(local: httpx.Client, method: str, path: str, headers: dict[str, str]) -> None:
-    answer = local.request(method, path, headers=headers)
+def test_other_sites_change_nothing(quay: httpx.Client, method: str, path: str, headers: dict[str, str]) -> None:
+    answer = quay.request(method, path, headers=headers)
     assert answer.status_code == 403
     assert "another site" in answer.json()["detail"]["reason"]
 
@@ -56,46 +56,44 @@ def test_a_form_of_another_site_is_no_json(local: httpx.Client, station: Station
     "host", ["evil.example", "evil.example:8470", "127.0.0.1.evil.example", "", "a/b", "[::1", "127.0.0.1@evil.example"]
 )
 @pytest.mark.parametrize("path", ["/", "/api/station", "/api/vehicles"])
-def test_a_name_made_to_point_here_is_not_answered(local: httpx.Client, host: str, path: str) -> None:
-    answer = local.get(path, headers={"Host": host})
+def test_a_name_made_to_point_here_is_not_answered(quay: httpx.Client, host: str, path: str) -> None:
+    answer = quay.get(path, headers={"Host": host})
     assert answer.status_code in (400, 421)
     assert "Pier 3" not in answer.text
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "LOCALHOST:8470", "[::1]:8470", "localhost."])
-def test_names_of_this_machine(local: httpx.Client, host: str) -> None:
-    assert local.get("/api/station", headers={"Host": host}).status_code == 200
+def test_names_of_this_machine(quay: httpx.Client, host: str) -> None:
+    assert quay.get("/api/station", headers={"Host": host}).status_code == 200
 
 
-def test_two_hosts_at_once(local: httpx.Client) -> None:
-    with socket.create_connection((local.base_url.host, local.base_url.port or 0), timeout=60.0) as line:
+def test_two_hosts_at_once(quay: httpx.Client) -> None:
+    with socket.create_connection((quay.base_url.host, quay.base_url.port or 0), timeout=60.0) as line:
         line.sendall(b"GET /api/station HTTP/1.1\r\nHost: 127.0.0.1\r\nHost: evil.example\r\nConnection: close\r\n\r\n")
         said = b"".join(iter(lambda: line.recv(10_000), b""))
     assert said.split()[1] in (b"400", b"421")
     assert b"Pier 3" not in said
 
 
-def test_nothing_is_shared_with_other_sites(local: httpx.Client) -> None:
+def test_nothing_is_shared_with_other_sites(quay: httpx.Client) -> None:
     for method in ("GET", "OPTIONS"):
-        answer = local.request(
-            method, "/api/station", headers={"Origin": EVIL, "Access-Control-Request-Method": "POST"}
-        )
+        answer = quay.request(method, "/api/station", headers={"Origin": EVIL, "Access-Control-Request-Method": "POST"})
         assert not [name for name in answer.headers if name.startswith("access-control")]
         assert answer.headers["cross-origin-resource-policy"] == "same-origin"
 
 
 @pytest.mark.parametrize("origin", [EVIL, "null", "http://127.0.0.1:1"])
-def test_a_socket_from_another_site(local: httpx.Client, origin: Any) -> None:
-    assert handshake(_own(local), Origin=origin) == 403
+def test_a_socket_from_another_site(quay: httpx.Client, origin: Any) -> None:
+    assert handshake(_own(quay), Origin=origin) == 403
 
 
-def test_a_socket_by_another_name(local: httpx.Client) -> None:
-    assert handshake(_own(local), Host="evil.example") == 403
+def test_a_socket_by_another_name(quay: httpx.Client) -> None:
+    assert handshake(_own(quay), Host="evil.example") == 403
 
 
-def test_a_socket_of_the_own_page_and_of_a_script(local: httpx.Client) -> None:
-    address = f"{_own(local).replace('http', 'ws')}/api/live"
-    for origin in (_own(local), None):
+def test_a_socket_of_the_own_page_and_of_a_script(quay: httpx.Client) -> None:
+    address = f"{_own(quay).replace('http', 'ws')}/api/live"
+    for origin in (_own(quay), None):
         with connect(address, origin=origin) as live:  # type: ignore[arg-type]
             assert '"hello"' in live.recv(timeout=60.0)
 

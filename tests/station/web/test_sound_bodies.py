@@ -16,9 +16,9 @@ from stommel.station.web.guards.bodies import unsound
         ('{"words": "x"}'.encode("utf-16"), "not UTF-8"),
     ],
 )  # fmt: skip
-def test_what_nobody_can_keep(local: httpx.Client, body: bytes, words: str) -> None:
+def test_what_nobody_can_keep(quay: httpx.Client, body: bytes, words: str) -> None:
     assert words in (unsound(body) or "")
-    answer = local.post("/api/notes", content=body, headers={"Content-Type": "application/json"})
+    answer = quay.post("/api/notes", content=body, headers={"Content-Type": "application/json"})
     assert answer.status_code == 422
     assert words in answer.json()["detail"]["reason"]
 
@@ -49,8 +49,8 @@ def test_a_note_in_any_script_of_the_world_comes_back(local: httpx.Client) -> No
         ("application/json", b'{"words": "  "}', "words = '  ': must not be blank"),
     ],
 )  # fmt: skip
-def test_a_body_of_another_kind_is_told_what_is_wanted(local: httpx.Client, kind: str, body: bytes, words: str) -> None:
+def test_a_body_of_another_kind_is_told_what_is_wanted(quay: httpx.Client, kind: str, body: bytes, words: str) -> None:
     """A script that forgets the header of its body is told so."""
-    answer = local.post("/api/notes", content=body, headers={"Content-Type": kind})
+    answer = quay.post("/api/notes", content=body, headers={"Content-Type": kind})
     assert answer.status_code == 422
     assert words in answer.json()["detail"]["reason"]

@@ -104,7 +104,7 @@ def _taken(
         )  # fmt: skip
         if step.end <= done:
             continue  # it is there since before the interruption
-        _patiently(partial(archive.store, row.vehicle, step.batch._replace(log=row.id)), rest)
+        _patiently(partial(archive.store_sound, row.vehicle, step.batch._replace(log=row.id)), rest)
         _patiently(partial(rows.change, row), rest)
         if not told(row):
             return row

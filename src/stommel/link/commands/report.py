@@ -25,6 +25,8 @@ class Report(NamedTuple):
     """Why; of an open one what is known, and until when the rest is not."""
     tries: int
     """How often it was said since the vehicle was heard."""
+    sent: bool
+    """Whether it may have left."""
 
     @property
     def is_last(self) -> bool:
@@ -39,7 +41,7 @@ def report_of(entry: Waiting, now: int) -> Report:
     return Report(
         command.id, kind.name if kind else str(command.number), command.parameters, command.given / 1000.0,
         command.expires / 1000.0, known.state, known.percent,
-        known.words if entry.last else _open_words(entry, now), entry.tries,
+        known.words if entry.last else _open_words(entry, now), entry.tries, entry.sent,
     )  # fmt: skip
 
 

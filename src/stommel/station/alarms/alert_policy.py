@@ -1,5 +1,6 @@
 """Which alarms people are told of, and when: once, and not again and again while one flaps."""
 
+import math
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
@@ -11,17 +12,23 @@ MOST_ALARMS = 5000
 """Different alarms that are remembered for the time in which they are not told again."""
 
 
+AlertKind = Literal["raised", "cleared", "repeated", "test"]
+
+
 class Alert(NamedTuple):
     """Something that people are told."""
 
-    kind: Literal["raised", "cleared", "repeated", "test"]
+    kind: AlertKind
     alarm: Alarm
     times: int = 1
     """How often it was raised since it was told last."""
+    since: float = math.inf
+    """When it was to be told first, by the station's clock [s since 1970]; not known before it waits."""
 
     def as_row(self) -> dict[str, Any]:
         """The alert as a webhook tells it."""
-        return {"kind": self.kind, "times": self.times, "alarm": self.alarm.as_row()}
+        since = self.since if math.isfinite(self.since) else None
+        return {"kind": self.kind, "times": self.times, "since": since, "alarm": self.alarm.as_row()}
 
 
 @dataclass

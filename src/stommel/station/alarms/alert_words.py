@@ -1,5 +1,6 @@
 """What alerts say to people."""
 
+import time
 from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from typing import NamedTuple
@@ -9,6 +10,8 @@ from stommel.station.alarms.alert_policy import Alert
 
 _LAST_TIME = 253_402_300_799.0
 """Of the year 9999 [s]."""
+LATE_S = 300.0
+"""An alert that has waited for so long is told as late."""
 _LONGEST_LINE = 300
 _LONGEST_SUBJECT = 120
 
@@ -39,7 +42,8 @@ def subject(alerts: Sequence[Alert], sender: Sender) -> str:
 
 def text(alerts: Sequence[Alert], sender: Sender) -> str:
     """All of them, a line each."""
-    lines = [one_line(_printable(_line(alert, sender)), _LONGEST_LINE) for alert in alerts]
+    now = time.time()
+    lines = [one_line(_printable(_line(alert, sender, now)), _LONGEST_LINE) for alert in alerts]
     return "\n".join([*lines, "", *([f"Page of the station: {sender.address}"] if sender.address else [])]) + "\n"
 
 
@@ -50,11 +54,13 @@ def _headline(alert: Alert, sender: Sender) -> str:
     return f"{alert.alarm.severity.capitalize()}: {alert.alarm.words} ({who})"
 
 
-def _line(alert: Alert, sender: Sender) -> str:
+def _line(alert: Alert, sender: Sender, now: float) -> str:
     alarm = alert.alarm
     at = utc(alarm.raised) if alarm.cleared is None else f"{utc(alarm.raised)} to {utc(alarm.cleared)}"
     again = f", {alert.times} times since it was told last" if alert.kind == "repeated" else ""
-    return f"{_headline(alert, sender)}, {at}{again}"
+    late = now - alert.since
+    told = f"; told {late / 60.0:.0f} min late, it did not go out before" if late >= LATE_S else ""
+    return f"{_headline(alert, sender)}, {at}{again}{told}"
 
 
 def _printable(words: str) -> str:

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from threading import Lock
 from typing import NamedTuple
 
@@ -38,6 +39,8 @@ class Alerts:
         Before each further try of a way [s].
     monotonic
         Clock of this machine [s].
+    folder
+        Where alerts wait over a restart; None: nowhere.
     """
 
     def __init__(
@@ -48,10 +51,11 @@ class Alerts:
         *,
         waits: Sequence[float] = WAITS_S,
         monotonic: Callable[[], float] = time.monotonic,
+        folder: Path | None = None,
     ) -> None:
         ways: list[Way] = [EmailWay(settings.email, sender)] if settings.email is not None else []
         ways += [WebhookWay(webhook, sender) for webhook in settings.webhooks]
-        self._couriers = [Courier(way, report, waits) for way in ways]
+        self._couriers = [Courier(way, report, waits, folder) for way in ways]
         self._report = report
         self._policy, self._monotonic, self._lock = AlertPolicy(settings), monotonic, Lock()
 

@@ -1,5 +1,6 @@
 """How alerts go out: what can go wrong, secrets from files, and a courier that tries again."""
 
+import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -8,9 +9,12 @@ from typing import Protocol
 
 from stommel.errors import StommelError, one_line
 from stommel.station.alarms.alert_policy import Alert
+from stommel.station.alarms.waiting_alerts import WaitingAlerts
 
 MOST_WAITING = 1000
 """Alerts that wait for a way that fails; beyond it the oldest is dropped."""
+OLDEST_S = 86_400.0
+"""What has waited for longer is not sent any more."""
 MOST_TOGETHER = 50
 """Alerts in one message."""
 PATIENCE_S = 20.0
@@ -34,6 +38,10 @@ class Way(Protocol):
     @property
     def name(self) -> str:
         """What people call it."""
+
+    @property
+    def file(self) -> str:
+        """Name of the file of what waits for it; the same after a restart, and another for each way."""
 
     def send(self, alerts: Sequence[Alert]) -> None:
         """Send one message with all of them.
@@ -81,13 +89,23 @@ class Courier:
         Is told why nothing goes out, or nothing when it does again.
     waits
         Before each further try [s].
+    folder
+        Where alerts wait over a restart; None: nowhere.
     """
 
-    def __init__(self, way: Way, report: Callable[[str, str], None], waits: Sequence[float] = WAITS_S) -> None:
+    def __init__(
+        self,
+        way: Way,
+        report: Callable[[str, str], None],
+        waits: Sequence[float] = WAITS_S,
+        folder: Path | None = None,
+    ) -> None:
         self.way = way
+        self._kept = WaitingAlerts(folder, way.file)
         self._report, self._waits = report, waits
-        self._lock = Lock()
-        self._waiting: deque[Alert] = deque()
+        self._lock, self._keeping = Lock(), Lock()
+        self._waiting: deque[Alert] = deque(self._kept.read())
+        self._on_disk = list(self._waiting)
         self._woken, self._stopped = Event(), Event()
         self._thread = Thread(target=self._run, name=f"alerts by {way.name}", daemon=True)
         self.dropped = 0
@@ -102,11 +120,12 @@ class Courier:
         self._woken.set()
         if self._thread.is_alive():
             self._thread.join(1.0)
+        self._keep()
 
     def put(self, alerts: Sequence[Alert]) -> None:
         """Take alerts; never waits."""
         with self._lock:
-            self._waiting.extend(alerts)
+            self._waiting.extend(alert._replace(since=time.time()) for alert in alerts)
             while len(self._waiting) > MOST_WAITING:
                 self._waiting.popleft()
                 self.dropped += 1
@@ -115,6 +134,8 @@ class Courier:
     def _run(self) -> None:
         tries = 0
         while not self._stopped.is_set():
+            self._drop_old()
+            self._keep()
             if not self._waiting:
                 self._woken.wait()
                 self._woken.clear()
@@ -144,5 +165,22 @@ class Courier:
             for alert in together:
                 if self._waiting and self._waiting[0] is alert:
                     self._waiting.popleft()
+        self._keep()
         self._report(self.way.name, reason)
         return True
+
+    def _drop_old(self) -> None:
+        """Forget what nobody wants to be told any more."""
+        with self._lock:
+            while self._waiting and time.time() - self._waiting[0].since > OLDEST_S:
+                self._waiting.popleft()
+                self.dropped += 1
+
+    def _keep(self) -> None:
+        """Bring what waits to the disk, before it is tried and after it has gone out."""
+        with self._keeping:
+            with self._lock:
+                waiting = list(self._waiting)
+            if waiting != self._on_disk:
+                self._kept.write(waiting)
+                self._on_disk = waiting

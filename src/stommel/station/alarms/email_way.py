@@ -24,6 +24,11 @@ class EmailWay:
         """What people call it."""
         return f"e-mail through {self._settings.host}"
 
+    @property
+    def file(self) -> str:
+        """There is one mail server."""
+        return "email"
+
     def send(self, alerts: Sequence[Alert]) -> None:
         """Send one message with all of them.
 

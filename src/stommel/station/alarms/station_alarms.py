@@ -3,6 +3,7 @@
 import logging
 import time
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from threading import Event, Lock, Thread
 from typing import Any, NamedTuple
 
@@ -55,6 +56,8 @@ class StationAlarms:
         Who tells people that are away.
     settings, alerts
         `[alarms]` and `[alerts]` of station.toml.
+    folder
+        Where alerts wait over a restart; None: nowhere.
     """
 
     def __init__(
@@ -65,17 +68,23 @@ class StationAlarms:
         sender: Sender,
         settings: AlarmSettings | None = None,
         alerts: AlertSettings | None = None,
+        folder: Path | None = None,
     ) -> None:
         self._archive, self._naming, self._publish = archive, naming, publish
         self._settings = settings or AlarmSettings()
         self.history = History(archive)
         self._limits = LimitTable(archive)
         self.alerts = Alerts(
-            alerts or AlertSettings(), sender, lambda way, reason: self.report(ALERTS_FAILING, way, reason)
+            alerts or AlertSettings(),
+            sender,
+            lambda way, reason: self.report(ALERTS_FAILING, way, reason),
+            folder=folder,
         )
         self._register = Register(self.history, self._tell, self.alerts.take)
         self._watched: dict[int, _Watched] = {}
         self._lock = Lock()
+        self._one_person = Lock()
+        """Held while a limit is changed, so that what is watched is what is kept."""
         self._troubles: dict[str, dict[str, str]] = {}
         self._stopped = Event()
         self._thread = Thread(target=self._run, name="alarms", daemon=True)
@@ -200,9 +209,10 @@ class StationAlarms:
             The archive does not take it; the one before is still watched.
         """
         watched = self._watched[vehicle]
-        self._limits.put(vehicle, limit, user)
-        self._register.put(vehicle, watched.watch.put(limit, watched.now()))
-        self._tell_limit(vehicle, limit.channel, user, limit)
+        with self._one_person:
+            self._limits.put(vehicle, limit, user)
+            self._register.put(vehicle, watched.watch.put(limit, watched.now()))
+            self._tell_limit(vehicle, limit.channel, user, limit)
 
     def remove_limit(self, vehicle: int, channel: str, user: str) -> bool:
         """Watch a channel no more; whether it had a limit.
@@ -213,12 +223,13 @@ class StationAlarms:
             The archive does not take it; it is still watched.
         """
         watched = self._watched[vehicle]
-        if channel not in {limit.channel for limit in watched.watch.limits()}:
-            return False
-        self._limits.remove(vehicle, channel, user)
-        self._register.put(vehicle, watched.watch.remove(channel, watched.now()) or [])
-        self._tell_limit(vehicle, channel, user, None)
-        return True
+        with self._one_person:
+            if channel not in {limit.channel for limit in watched.watch.limits()}:
+                return False
+            self._limits.remove(vehicle, channel, user)
+            self._register.put(vehicle, watched.watch.remove(channel, watched.now()) or [])
+            self._tell_limit(vehicle, channel, user, None)
+            return True
 
     def _tell_limit(self, vehicle: int, channel: str, user: str, limit: Limit | None) -> None:
         told = None if limit is None else limit.model_dump()

@@ -40,6 +40,11 @@ class WebhookWay:
         """What people call it: the address may hold a secret in its path, so only the host."""
         return f"webhook at {self._host}"
 
+    @property
+    def file(self) -> str:
+        """By the whole address, of which it tells nothing."""
+        return f"webhook-{hashlib.sha256(self._settings.url.encode()).hexdigest()[:16]}"
+
     def send(self, alerts: Sequence[Alert]) -> None:
         """Send one message with all of them.
 

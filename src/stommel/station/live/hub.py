@@ -122,8 +122,6 @@ class Hub:
         SubscriptionError
             There is no such vehicle, or too much is asked for.
         """
-        if not self.knows(vehicle):
-            raise SubscriptionError(f"vehicle {vehicle}: this station has none of that number")
         if len(channels) > MOST_CHANNELS:
             raise SubscriptionError(f"channels: {len(channels)} were asked for; at most {MOST_CHANNELS} are allowed")
         wanted = frozenset(channels)
@@ -134,6 +132,8 @@ class Hub:
         )
         self._sweep()
         with self._lock:
+            if not self.knows(vehicle):  # who forgets it takes the same lock, and closes all readers that are there
+                raise SubscriptionError(f"vehicle {vehicle}: this station has none of that number")
             if sum(map(len, self._readers.values())) >= MOST_READERS:
                 raise SubscriptionError(f"{MOST_READERS} subscriptions are open; close a page")
             self._readers[vehicle] = (*self._readers.get(vehicle, ()), reader)

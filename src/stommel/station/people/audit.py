@@ -84,8 +84,9 @@ class Audit:
         self, *, before: int | None = None, limit: int = 200, user: str | None = None, vehicle: int | None = None
     ) -> list[Entry]:
         """The newest rows first, older than the row `before`."""
-        with suppress(ArchiveError):
-            self.write_late()
+        if not self._archive.is_written:  # whoever reads waits for nobody
+            with suppress(ArchiveError):
+                self.write_late()
         query = select(audit).order_by(audit.c.id.desc()).limit(limit)
         if before is not None:
             query = query.where(audit.c.id < before)

@@ -1,6 +1,7 @@
 """Who holds command of a vehicle: one pilot at a time, and everybody sees who."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from threading import Lock
@@ -110,13 +111,17 @@ class Holders:
                 connection.execute(holders.delete().where(holders.c.vehicle_id == vehicle))
             self._told(vehicle, None)
 
-    def leave(self, name: str) -> None:
-        """Give up all that somebody holds, who may no longer fly."""
-        mine = select(holders.c.vehicle_id).where(holders.c.user == name)
+    @contextmanager
+    def leaving(self) -> Iterator[Callable[[Connection, str], None]]:
+        """Let a transaction of others give up all that somebody holds, who may no longer fly; told at the end of it."""
+        vehicles: list[int] = []
+
+        def leave(connection: Connection, name: str) -> None:
+            vehicles.extend(connection.execute(select(holders.c.vehicle_id).where(holders.c.user == name)).scalars())
+            connection.execute(holders.delete().where(holders.c.user == name))
+
         with self._in_order:
-            with self._archive.writing() as connection:
-                vehicles = list(connection.execute(mine).scalars())
-                connection.execute(holders.delete().where(holders.c.user == name))
+            yield leave
             for vehicle in vehicles:
                 self._told(vehicle, None)
 

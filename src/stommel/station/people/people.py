@@ -4,6 +4,9 @@ import threading
 import time
 from collections.abc import Callable
 
+from sqlalchemy import Connection
+
+from stommel.station.people.afterwards import Later, at_once
 from stommel.station.people.attempts import Attempts
 from stommel.station.people.audit import Audit
 from stommel.station.people.errors import WrongLoginError
@@ -27,15 +30,17 @@ class People:
         Seconds since 1970 at the station.
     told
         Hears who holds command of a vehicle from now on; None where nobody does.
+    later
+        Writes down when somebody came, without letting them wait.
     """
 
     def __init__(
         self, archive: Database, *, clock: Callable[[], float] = time.time,
-        told: Callable[[int, Hold | None], None] | None = None,
+        told: Callable[[int, Hold | None], None] | None = None, later: Later = at_once,
     ) -> None:  # fmt: skip
         self.users = Users(archive, clock)
-        self.sessions = Sessions(archive, clock)
-        self.tokens = Tokens(archive, clock)
+        self.sessions = Sessions(archive, clock, later)
+        self.tokens = Tokens(archive, clock, later)
         self.audit = Audit(archive, clock)
         self.holders = Holders(archive, clock, told or _nobody_hears)
         self.attempts = Attempts()
@@ -95,16 +100,19 @@ class People:
     def change(
         self, name: str, *, role: Role | None = None, disabled: bool | None = None, password: str | None = None
     ) -> Person:
-        """As `Users.change`; who may no longer fly gives up command."""
-        person = self.users.change(name, role=role, disabled=disabled, password=password)
-        if person.disabled or not person.role.may(Role.PILOT):
-            self.holders.leave(person.name)
-        return person
+        """As `Users.change`; who may no longer fly gives up command, in the same transaction."""
+        with self.holders.leaving() as leave:
+
+            def changed(connection: Connection, person: Person) -> None:
+                if person.disabled or not person.role.may(Role.PILOT):
+                    leave(connection, person.name)
+
+            return self.users.change(name, role=role, disabled=disabled, password=password, changed=changed)
 
     def remove(self, name: str) -> None:
-        """As `Users.remove`; what the person held is free."""
-        self.users.remove(name)
-        self.holders.leave(spelled(name))
+        """As `Users.remove`; what the person held is free, in the same transaction."""
+        with self.holders.leaving() as leave:
+            self.users.remove(name, lambda connection, person: leave(connection, person.name))
 
 
 def _nobody_hears(_vehicle: int, _hold: Hold | None) -> None:

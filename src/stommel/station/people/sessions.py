@@ -8,6 +8,7 @@ from sqlalchemy import select
 from stommel.archive.errors import ArchiveError
 from stommel.archive.schema import sessions, users
 from stommel.archive.times import microseconds, seconds
+from stommel.station.people.afterwards import Later, at_once
 from stommel.station.people.roles import Role, User
 from stommel.station.people.secrets_kept import fingerprint, new_secret
 from stommel.station.people.users import Database
@@ -23,8 +24,8 @@ MOST = 50
 class Sessions:
     """Who is logged in."""
 
-    def __init__(self, archive: Database, clock: Callable[[], float]) -> None:
-        self._archive, self._clock = archive, clock
+    def __init__(self, archive: Database, clock: Callable[[], float], later: Later = at_once) -> None:
+        self._archive, self._clock, self._later = archive, clock, later
 
     def begin(self, name: str, address: str) -> str:
         """Log somebody in; returns the secret, which is told once."""
@@ -57,7 +58,9 @@ class Sessions:
             ).one_or_none()
         if row is None or seconds(row.expires_us) <= now:
             return None
-        self._used(key, now, seconds(row.made_us), seconds(row.expires_us))
+        until = min(now + IDLE_S, seconds(row.made_us) + LONGEST_S)
+        if until - seconds(row.expires_us) >= 3600.0:  # written once in an hour only
+            self._later(key, lambda: self._used(key, now, until))
         return User(row.name, Role(row.role), "session")
 
     def end(self, secret: str) -> None:
@@ -65,11 +68,8 @@ class Sessions:
         with self._archive.writing() as connection:
             connection.execute(sessions.delete().where(sessions.c.id_hash == fingerprint(secret)))
 
-    def _used(self, key: str, now: float, made: float, expires: float) -> None:
-        """Let a session that is used last on; written once in an hour only."""
-        until = min(now + IDLE_S, made + LONGEST_S)
-        if until - expires < 3600.0:
-            return
+    def _used(self, key: str, now: float, until: float) -> None:
+        """Let a session that is used last on."""
         with suppress(ArchiveError), self._archive.writing() as connection:  # busy: at the next look
             connection.execute(
                 sessions.update()

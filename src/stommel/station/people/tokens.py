@@ -9,6 +9,7 @@ from sqlalchemy import Row, func, select
 from stommel.archive.errors import ArchiveError
 from stommel.archive.schema import tokens, users
 from stommel.archive.times import microseconds, seconds
+from stommel.station.people.afterwards import Later, at_once
 from stommel.station.people.errors import PeopleError, UnknownPersonError
 from stommel.station.people.names import spelled
 from stommel.station.people.roles import Role, User
@@ -39,8 +40,8 @@ class Token:
 class Tokens:
     """Made, told once, listed and removed."""
 
-    def __init__(self, archive: Database, clock: Callable[[], float]) -> None:
-        self._archive, self._clock = archive, clock
+    def __init__(self, archive: Database, clock: Callable[[], float], later: Later = at_once) -> None:
+        self._archive, self._clock, self._later = archive, clock, later
 
     def add(self, user: str, name: str, role: Role, days: float | None) -> tuple[Token, str]:
         """Make a token; the secret is told here and never again.
@@ -108,9 +109,12 @@ class Tokens:
         if row is None or (row.expires_us is not None and seconds(row.expires_us) <= now):
             return None
         if row.last_used_us is None or now - seconds(row.last_used_us) > _USED_EVERY_S:
-            with suppress(ArchiveError), self._archive.writing() as connection:  # busy: at the next look
-                connection.execute(tokens.update().where(tokens.c.id == row.id).values(last_used_us=microseconds(now)))
+            self._later(f"token {row.id}", lambda: self._used(row.id, now))
         return User(row.user, min(Role(row.role), Role(row.own), key=lambda role: role.rank), "token")
+
+    def _used(self, token: int, now: float) -> None:
+        with suppress(ArchiveError), self._archive.writing() as connection:  # busy: at the next look
+            connection.execute(tokens.update().where(tokens.c.id == token).values(last_used_us=microseconds(now)))
 
 
 def _token(row: Row[tuple[object, ...]]) -> Token:

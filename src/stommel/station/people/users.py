@@ -24,6 +24,10 @@ class Database(Protocol):
     def writing(self) -> AbstractContextManager[Connection]:
         """Connection of one transaction, committed at its end."""
 
+    @property
+    def is_written(self) -> bool:
+        """Whether somebody writes just now."""
+
 
 @dataclass(frozen=True)
 class Person:
@@ -33,6 +37,10 @@ class Person:
     role: Role
     added: float
     disabled: bool
+
+
+Changed = Callable[[Connection, Person], None]
+"""Writes what follows from a change, in its transaction, of the person as they are after it."""
 
 
 class Users:
@@ -87,11 +95,17 @@ class Users:
         return Person(plain, role, seconds(added), False)
 
     def change(
-        self, name: str, *, role: Role | None = None, disabled: bool | None = None, password: str | None = None
+        self,
+        name: str,
+        *,
+        role: Role | None = None,
+        disabled: bool | None = None,
+        password: str | None = None,
+        changed: Changed | None = None,
     ) -> Person:
         """Change a role, keep somebody out or let them in again, or set a new password; what is None stays.
 
-        A new password and keeping somebody out end all their sessions.
+        A new password and keeping somebody out end all their sessions. `changed` writes in the same transaction.
 
         Raises
         ------
@@ -117,10 +131,14 @@ class Users:
                 _somebody_looks_after(connection)
             if disabled or password is not None:
                 connection.execute(sessions.delete().where(sessions.c.user == plain))
+            if changed is not None:
+                changed(connection, after)
         return after
 
-    def remove(self, name: str) -> None:
+    def remove(self, name: str, changed: Changed | None = None) -> None:
         """Remove somebody with their sessions and tokens; what they did stays in the audit log.
+
+        `changed` writes in the same transaction.
 
         Raises
         ------
@@ -137,6 +155,8 @@ class Users:
             connection.execute(users.delete().where(users.c.name == plain))
             if _looks_after(person):
                 _somebody_looks_after(connection)
+            if changed is not None:
+                changed(connection, person)
 
 
 def _person(row: object) -> Person:

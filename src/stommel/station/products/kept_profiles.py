@@ -54,6 +54,8 @@ def keep(archive: Archive, vehicle: int, new: list[Found], since_us: int, before
     before, change
         Up to which change of the samples they were known, and are now.
     """
+    if archive.is_written:
+        return False
     with suppress(ArchiveError), archive.writing() as connection:
         v = vehicles.c
         mine = update(vehicles).where(v.id == vehicle, v.profiles_change == before).values(profiles_change=change)

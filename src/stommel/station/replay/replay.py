@@ -1,5 +1,6 @@
 """One replay: what a vehicle told in the past, told again as if it were now, at a speed that listeners can follow."""
 
+import logging
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -7,6 +8,7 @@ from threading import Event, Lock, Thread
 from typing import Any
 
 from stommel.archive import Archive, ArchiveError
+from stommel.errors import one_line
 from stommel.station.live.events import Happening, Samples
 from stommel.station.live.hub import Hub
 from stommel.station.replay.course import Course
@@ -25,6 +27,7 @@ LEAD = 1.0
 """So long before the next sample a silence is left [s]."""
 ALONE = 60.0
 """For so long nobody may listen [s]."""
+_log = logging.getLogger(__name__)
 
 
 class Replay:
@@ -125,6 +128,17 @@ class Replay:
         self._hub.restart(self.name, known)
 
     def _run(self) -> None:
+        try:
+            self._go()
+        except Exception as error:  # noqa: BLE001 - a defect; whoever listens must know that nothing comes any more
+            _log.exception("replay %s", self.identity)
+            self._reason = f"the replay has failed: {type(error).__name__}: {one_line(str(error), 200)}"
+        self._ends.set()
+        self._hub.forget(self.name)
+        self._publish_state()
+        self._ended(self)
+
+    def _go(self) -> None:
         last = heard = told = time.monotonic()
         while not self._ends.is_set():
             changed = self._woken.wait(TICK)
@@ -139,9 +153,6 @@ class Replay:
             heard = now if is_heard else heard
             if now - heard > self._alone:
                 self._ends.set()
-        self._hub.forget(self.name)
-        self._publish_state()
-        self._ended(self)
 
     def _tell(self, elapsed: float) -> bool:
         """Tell what is due after a real time [s], if listeners have taken what came before; whether time went on."""

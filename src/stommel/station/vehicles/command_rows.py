@@ -11,6 +11,8 @@ from stommel.archive.times import microseconds, seconds
 
 GIVEN = "given"
 """On the disk of the station, and not in the queue of the link yet."""
+QUEUED = "queued"
+"""In the queue of the link, or about to come there; the vehicle has said nothing of it."""
 NOT_SENT = "not_sent"
 """It never came into the queue."""
 LAST = frozenset((
@@ -49,19 +51,22 @@ class CommandRows:
         self._archive = archive
 
     def add(self, row: CommandRow) -> None:
-        """Write a new command."""
+        """Write a new command; one that is there already is the same, of which the answer was lost on the way."""
         with self._archive.writing() as connection:
+            if connection.execute(select(commands.c.id).where(commands.c.id == row.id)).scalar() is not None:
+                return
             connection.execute(commands.insert().values(_stored(row)))
             _note(connection, row.id, row.changed, row.state, row.words)
 
-    def change(self, id: str, state: str, words: str, t: float) -> None:
-        """Write what became of a command; a new state goes to its history."""
+    def change(self, id: str, state: str, words: str, t: float) -> bool:
+        """Write what became of a command, a new state to its history too; whether there is such a command."""
         with self._archive.writing() as connection:
             before = connection.execute(select(commands.c.state).where(commands.c.id == id)).scalar_one_or_none()
             told = {"state": state, "outcome": words, "changed_us": microseconds(t)}
             connection.execute(commands.update().where(commands.c.id == id).values(told))
             if before is not None and before != state:
                 _note(connection, id, t, state, words)
+            return before is not None
 
     def find(self, vehicle: int, id: str) -> CommandRow | None:
         """A command of a vehicle; None if there is none."""

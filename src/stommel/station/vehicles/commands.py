@@ -1,10 +1,10 @@
 """Commands as people give them: on the disk with who and when before they are queued, followed to the last word."""
 
 import secrets
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from stommel.archive import Archive
+from stommel.archive import Archive, ArchiveError
 from stommel.link.commands.client import LEAST_VALID, MOST_VALID
 from stommel.link.commands.states import When
 from stommel.link.commands.table import CommandError, command_named, packed
@@ -13,7 +13,7 @@ from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask
 from stommel.station.vehicles.command_follower import CommandFollower
-from stommel.station.vehicles.command_rows import GIVEN, NOT_SENT, CommandRow, CommandRows
+from stommel.station.vehicles.command_rows import GIVEN, CommandRow, CommandRows
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.opening import MissingError, VehicleError
 
@@ -37,8 +37,15 @@ class Commands:
         self._followers: dict[int, CommandFollower] = {}
 
     def follow(self, line: VehicleLine) -> None:
-        """Take in a vehicle, before its line is started."""
-        follower = self._followers[line.vehicle] = CommandFollower(self._rows, self._tell)
+        """Take in a vehicle, before its line is started and before anybody can give it a command.
+
+        Raises
+        ------
+        ArchiveError
+            It cannot be read.
+        """
+        left = self._rows.open_ones(line.vehicle)
+        follower = self._followers[line.vehicle] = CommandFollower(self._rows, self._tell, left)
         line.followers.append(follower)
 
     def give(
@@ -61,7 +68,11 @@ class Commands:
             return self.abort(vehicle, user, valid_for_s)
         line = self._lines[vehicle]
         row = self._row(line, user, name, parameters, valid_for_s, when)
-        self._rows.add(row)
+        try:
+            self._rows.add(row)
+        except ArchiveError as error:  # it may be there all the same, its answer lost on the way
+            self._followers[vehicle].unsent.append((row, str(error), row.given))
+            raise
         id = int(row.id, 16)
         self._queue(line, row, lambda end, t: end.commands.give(
             name, parameters, t, valid_for=valid_for_s, when=when, id=id
@@ -80,9 +91,7 @@ class Commands:
         row = self._row(line, user, "abort", {}, valid_for_s, When.UNTIL_EXPIRY)
         complaint = self._followers[vehicle].add_now_or_later(row, line.archive_reason)
         id = int(row.id, 16)
-        self._queue(
-            line, row, lambda end, t: end.commands.abort(t, valid_for=valid_for_s, id=id), is_kept=not complaint
-        )  # fmt: skip
+        self._queue(line, row, lambda end, t: end.commands.abort(t, valid_for=valid_for_s, id=id))
         return row._replace(words=complaint) if complaint else self._found(vehicle, row)
 
     def cancel(self, vehicle: int, id: str) -> CommandRow:
@@ -145,20 +154,13 @@ class Commands:
             "written down, not queued yet", now,
         )  # fmt: skip
 
-    def _queue(self, line: VehicleLine, row: CommandRow, give: Any, *, is_kept: bool = True) -> None:
+    def _queue(self, line: VehicleLine, row: CommandRow, give: Callable[[ShoreEnd, float], object]) -> None:
         """Let the line take a command whose row is written; if it does not, the row says so."""
         follower = self._followers[line.vehicle]
-
-        def queue(end: ShoreEnd, t: float) -> None:
-            give(end, t)
-            if is_kept:
-                follower.queued(row, line.clock.of_link(t))
-
         try:
-            ask(line, queue)
-        except (CommandError, VehicleError) as error:
-            if is_kept:
-                self._rows.change(row.id, NOT_SENT, str(error), line.clock.now())
+            ask(line, lambda end, t: follower.queue(row, lambda: give(end, t), line.clock.of_link(t)))
+        except VehicleError as error:  # the line has not done it, and will not
+            follower.not_sent(row, str(error), line.clock.now())
             raise
 
     def _found(self, vehicle: int, row: CommandRow) -> CommandRow:

@@ -15,6 +15,8 @@ from stommel.station.clock import FIRST, LAST, VehicleClock
 
 MOST_FRAMES = 50_000
 """That wait for an archive that does not take them; beyond, the line is not read."""
+MOST_EARLY = 4 << 20
+"""Bytes that wait for the clock of a simulated vehicle; if it is not told until then, ours stands for it."""
 MOST_REFUSED = 10_000
 """Looks that wait for the vehicle's clock; beyond, the oldest are forgotten that brought nothing that was believed."""
 LINK_EVERY = 10.0
@@ -54,6 +56,7 @@ class Ingest:
         self._intervals: dict[str, tuple[float, float]] = {}
         """When each message came last, and its mean interval [s]."""
         self._early: list[Early] = []
+        self._early_bytes = 0
         self._is_early = False
         self._first_boot = math.inf
         """Its time since boot when it was heard first, while its clock was not set [s]."""
@@ -80,9 +83,10 @@ class Ingest:
         if not clock.is_set:
             if data:
                 self._early.append((data, accepted, t))
+                self._early_bytes += len(data)
                 self._is_early |= bool(accepted)
                 self._forget_refused()
-            if self._is_long_unset(accepted):
+            if self._early_bytes >= MOST_EARLY or self._is_long_unset(accepted):
                 clock.hear(min(max(t, FIRST), LAST), t)  # without a fix it may never know
             if not clock.is_set:
                 return
@@ -90,14 +94,15 @@ class Ingest:
             self._take(*early)
         if not self._early or self._early[-1][1] is not accepted:
             self._take(data, accepted, t)
-        self._early, self._is_early = [], False
+        self._early, self._early_bytes, self._is_early = [], 0, False
 
     def _forget_refused(self) -> None:
         """Keep no more than so much of what was not believed: the line is to be read until the vehicle is heard."""
-        if len(self._early) > MOST_REFUSED:
+        while len(self._early) > MOST_REFUSED or self._early_bytes >= MOST_EARLY:
             place = next((k for k, (_, accepted, _) in enumerate(self._early) if not accepted), None)
-            if place is not None:
-                del self._early[place]
+            if place is None:
+                return
+            self._early_bytes -= len(self._early.pop(place)[0])
 
     def _is_long_unset(self, accepted: Sequence[Received]) -> bool:
         """Whether the vehicle was heard for long by its own time, of which a slow simulation has less than we."""
@@ -127,7 +132,7 @@ class Ingest:
     @property
     def is_full(self) -> bool:
         """Whether no more can be kept."""
-        return len(self.frames) + len(self._early) >= MOST_FRAMES
+        return len(self.frames) >= MOST_FRAMES
 
     @property
     def has_news(self) -> bool:
@@ -142,10 +147,6 @@ class Ingest:
     def batch(self) -> Batch:
         """All that waits."""
         return Batch(self.frames, self.samples, self.texts, self.dives, self.ctd)
-
-    def keep_frames_only(self) -> None:
-        """Give up what was made of the frames, which nobody can store; they themselves are kept."""
-        self.samples, self.texts, self.dives, self.ctd = [], [], [], []
 
     def stored(self) -> None:
         """It is on the disk."""

@@ -1,7 +1,7 @@
 """The line to one vehicle: a thread that hears, keeps, and only then answers."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from contextlib import ExitStack
 from pathlib import Path
@@ -92,6 +92,8 @@ class VehicleLine:
         """Looks that went wrong."""
         self.failure = ""
         """The last of them, in words."""
+        self.left_out = 0
+        """Rows of what came that no archive takes; their frames are kept."""
         self.clock_failure = ""
         """Why the clock of its world is not kept now, in words."""
         self._archive, self._committed = archive, committed
@@ -117,11 +119,20 @@ class VehicleLine:
         self._wake.set()
 
     def stop(self, within: float = 5.0) -> None:
-        """End, with all that came stored if the archive takes it."""
+        """End, with all that came stored if the archive takes it.
+
+        A thread that takes longer, as one that waits for a slow disk, keeps the vehicle's folder until it has ended.
+        """
         self.end_soon()
-        if self._thread.ident is not None:
+        if self._thread.ident is None:
+            self._held.close()
+        else:
             self._thread.join(within)
-        self._held.close()
+
+    def wait(self) -> None:
+        """Return when the line has ended, however long that takes."""
+        if self._thread.ident is not None:
+            self._thread.join()
 
     def ask(self, function: Callable[[ShoreEnd, float], T]) -> "Future[T]":
         """Let the line's thread call a function with the end and the time of the link, at its next look.
@@ -168,7 +179,10 @@ class VehicleLine:
                 self._ends.wait(AGAIN)
             self._wake.wait(BUSY if time.monotonic() < self._lively else QUIET)
             self._wake.clear()
-        self._finish()
+        try:
+            self._finish()
+        finally:
+            self._held.close()
 
     def _look(self) -> None:
         real, t = time.monotonic(), self.clock.link_now()
@@ -186,7 +200,7 @@ class VehicleLine:
         if kept or self.archive_reason:
             self._follow(t, self.tellers)
         if transport is not None:
-            self._speak(transport, real, t, kept=kept)
+            self._speak(transport, real, t, kept=kept and not self.archive_reason)
         self._keep_clock(real)
         if real - self._status_at >= STATUS_EVERY:
             self._status_at, self._status = real, self._seen(t)
@@ -231,18 +245,25 @@ class VehicleLine:
         self._store_at = real
         batch = ingest.batch()
         try:
-            self._archive.store(self.vehicle, batch)
-        except ArchiveRequestError as error:
-            self.failure = f"what came is kept as frames only: {error}"
-            ingest.keep_frames_only()
-            return False
+            kept = self._archive.store_sound(self.vehicle, batch)
         except ArchiveError as error:
             self.archive_reason = str(error)
             return False
+        except Exception as error:  # noqa: BLE001 - a defect; an abort goes out all the same
+            self._failed("keeping what came", error)
+            self.archive_reason = self.failure
+            return False
         ingest.stored()
         self.archive_reason = ""
-        self._committed(self, batch)
+        self._leave_out(kept.left_out)
+        self._committed(self, kept.batch)
         return True
+
+    def _leave_out(self, rows: Sequence[str]) -> None:
+        """Tell of rows that no archive takes; the frames that brought them are kept."""
+        if rows:
+            self.left_out += len(rows)
+            self.failure = f"{self.left_out} values were left out, their frames are kept; the last: {rows[-1]}"[:500]
 
     def _follow(self, t: float, followers: list[Follower]) -> None:
         for follower in list(followers):

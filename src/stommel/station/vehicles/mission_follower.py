@@ -67,7 +67,7 @@ class Task:
 
 
 class MissionFollower:
-    """Everything of it happens in the line's thread, but for reading `held`, `words` and `current`.
+    """Everything of it happens in the line's thread, but for reading `held`, `words` and `underway`.
 
     Parameters
     ----------
@@ -88,6 +88,8 @@ class MissionFollower:
         self._due = 0.0
         self._queue: deque[Task] = deque()
         self.current: Task | None = None
+        self.underway: tuple[Task | None, Progress | None] = None, None
+        """The request that is on its way, and of an upload how far it is [bytes], when the line looked last."""
         self.held: HeldOrders | None = None
         """What the vehicle said that it holds; None before."""
         self.held_at = 0.0
@@ -112,10 +114,6 @@ class MissionFollower:
         """Take a request."""
         self._queue.append(task)
 
-    def progress(self, line: VehicleLine, t: float) -> Progress:
-        """How far the current upload is [bytes]."""
-        return line.end.orders.progress(t)
-
     def look(self, line: VehicleLine, t: float) -> None:
         """Go on."""
         real = time.monotonic()
@@ -133,6 +131,8 @@ class MissionFollower:
         if self.current is None and self._queue and not self._waits(line, self._queue[0], t):
             self._begin(line, self._queue[0], t)
         self._look_at_fetch(line)
+        is_upload = self.current is not None and self.current.row is not None
+        self.underway = self.current, line.end.orders.progress(t) if is_upload else None
 
     def _ask_if_new(self, line: VehicleLine) -> None:
         """Ask what is held when the vehicle is first heard, and when it tells another mission."""

@@ -8,7 +8,6 @@ from typing import Any
 from stommel.archive import Archive
 from stommel.control.orders_file import parse_orders
 from stommel.errors import StommelError
-from stommel.link.shore.shore_end import ShoreEnd
 from stommel.plans.problems import PlanError, plan_from
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
@@ -97,18 +96,16 @@ class Missions:
         ask(line, lambda _end, _t: follower.put(Task("roll-back", user, None, valid_for_s)))
 
     def aboard(self, vehicle: int) -> dict[str, Any]:
-        """Which mission the vehicle holds, and what is on its way, as the API tells it."""
-        line, follower = self._lines[vehicle], self._followers[vehicle]
-
-        def look(_: ShoreEnd, t: float) -> tuple[Task | None, dict[str, Any] | None]:
-            task = follower.current
-            is_upload = task is not None and task.row is not None
-            return task, follower.progress(line, t)._asdict() if is_upload else None
-
-        task, progress = ask(line, look)
+        """Which mission the vehicle holds, and what is on its way, as the API tells it; waits for no line."""
+        follower = self._followers[vehicle]
+        task, progress = follower.underway
         held, missing = follower.held, follower.words or None
         row = None if held is None or not held.sha256 else self._rows.of_hash(vehicle, held.sha256.hex())
-        upload = None if task is None or task.row is None else self.told(task.row) | {"progress": progress}
+        upload = (
+            None
+            if task is None or task.row is None
+            else self.told(task.row) | {"progress": progress and progress._asdict()}
+        )
         if held is not None and not held.sha256:
             missing = "the vehicle holds no mission"
         elif held is not None and row is None:

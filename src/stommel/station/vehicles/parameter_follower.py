@@ -3,15 +3,17 @@
 import math
 import time
 from collections import deque
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from stommel.link.endings import Ending
+from stommel.link.parameters.client import ParameterClient
+from stommel.link.parameters.encoding import ParameterValueError, fitting
 from stommel.link.parameters.known import KnownSet
 from stommel.link.parameters.single import SingleOutcome
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.parameter_rows import ParameterRow, ParameterRows
+from stommel.station.vehicles.parameter_writes import DONE, FAILED, REFUSED, WAITING, Write, WriteRows
 
 EVERY = 0.2
 """Between two looks [s]."""
@@ -19,31 +21,10 @@ WITHIN = 3600.0
 """Time within which a refreshing ends [s]."""
 MOST_WRITES = 200
 """Writings that are remembered."""
-
-
-@dataclass
-class Write:
-    """A value that somebody sets."""
-
-    ticket: int
-    component: int
-    name: str
-    value: float
-    user: str
-    t: float
-    """When it was asked for, by the vehicle's clock [s since 1970]."""
-    state: str = "waiting"
-    """waiting, done, refused or failed."""
-    words: str = ""
-    holds: float | None = None
-    """Value that holds aboard, as far as the vehicle said."""
-
-    def told(self) -> dict[str, Any]:
-        """As the API tells it."""
-        return {
-            "ticket": self.ticket, "component": self.component, "name": self.name, "value": self.value,
-            "user": self.user, "t": self.t, "state": self.state, "words": self.words, "holds": self.holds,
-        }  # fmt: skip
+AGAIN = 60.0
+"""Between two questions about what was set before the station began [s]."""
+STARTED_ANEW = "the station was started anew; the vehicle is asked what it holds"
+HOLDS = "the vehicle holds this value; the station was started anew before it had answered"
 
 
 class ParameterFollower:
@@ -51,22 +32,46 @@ class ParameterFollower:
 
     Parameters
     ----------
-    rows
+    rows, writes
         Of the archive.
     tell
         Is called with what has changed, as the API tells it.
+    left
+        What was set until the station began; of what waits, the vehicle is asked what it holds.
     """
 
-    def __init__(self, rows: ParameterRows, tell: Callable[[int, dict[str, Any]], None]) -> None:
-        self._rows, self._tell = rows, tell
+    def __init__(
+        self,
+        rows: ParameterRows,
+        writes: WriteRows,
+        tell: Callable[[int, dict[str, Any]], None],
+        left: Sequence[Write] = (),
+    ) -> None:
+        self._rows, self._write_rows, self._tell = rows, writes, tell
         self._due = 0.0
         self._sets: dict[int, KnownSet] = {}
         """As they were when they were written down."""
         self.latest: dict[tuple[int, str], ParameterRow] | None = None
         """What the archive has; None before it was read."""
-        self.writes: deque[Write] = deque(maxlen=MOST_WRITES)
+        self.writes: deque[Write] = deque(left, maxlen=MOST_WRITES)
+        self._left = [write for write in left if write.state == WAITING]
+        for write in self._left:
+            write.words = STARTED_ANEW
+        self._ended: deque[Write] = deque()
+        """Those of which the archive does not have the outcome yet."""
         self._asked_at: float | None = None
         self._refreshed: object = None
+        self.refreshing: dict[str, Any] | None = None
+        """How far a refreshing was when the line looked last; None while there is none."""
+
+    def refresh(self, client: ParameterClient, t: float) -> None:
+        """Ask the vehicle for all."""
+        client.refresh(t, WITHIN)
+        self._see(client, t)
+
+    def _see(self, client: ParameterClient, t: float) -> None:
+        progress = client.progress(t)
+        self.refreshing = progress._asdict() if client.refreshed is None and progress.of > 0 else None
 
     def look(self, line: VehicleLine, t: float) -> None:
         """Write what has changed; the first time that the vehicle is heard, ask it."""
@@ -77,24 +82,50 @@ class ParameterFollower:
         client = line.end.parameters
         if self.latest is None:
             self.latest = self._rows.latest(line.vehicle)
-        if self._asked_at is None and line.end.is_heard(t):
+        if self._must_ask(client, t) and line.end.is_heard(t):
             self._asked_at = t
-            client.refresh(t, WITHIN)
+            self.refresh(client, t)
         for outcome in client.outcomes():
-            self._take(line, outcome)
+            self._take(outcome)
+        self._settle_left(client)
+        while self._ended:
+            self._write_rows.change(self._ended[0])
+            self._tell(line.vehicle, self._ended.popleft().told())
         self._compare(line)
         if client.refreshed is not self._refreshed:
             self._refreshed = client.refreshed
             if client.refreshed is not None:
                 self._tell(line.vehicle, {"refreshed": True})
+        self._see(client, t)
 
-    def _take(self, line: VehicleLine, outcome: SingleOutcome) -> None:
+    def _must_ask(self, client: ParameterClient, t: float) -> bool:
+        """Whether it is time to ask for all: at first, and again for what was set before the station began."""
+        if self._asked_at is None:
+            return True
+        return bool(self._left) and client.refreshed is not None and t - self._asked_at >= AGAIN
+
+    def _take(self, outcome: SingleOutcome) -> None:
         for write in self.writes:
-            if write.ticket == outcome.ticket and write.state == "waiting":
-                write.state = {Ending.WHOLE: "done", Ending.REFUSED: "refused"}.get(outcome.ending, "failed")
+            if write.ticket == outcome.ticket and write.state == WAITING:
+                write.state = {Ending.WHOLE: DONE, Ending.REFUSED: REFUSED}.get(outcome.ending, FAILED)
                 write.words = outcome.words
                 write.holds = None if outcome.value is None else float(outcome.value)
-                self._tell(line.vehicle, write.told())
+                self._ended.append(write)
+
+    def _settle_left(self, client: ParameterClient) -> None:
+        """End what was set before the station began, by what the vehicle has told since that it holds."""
+        if not self._left:
+            return
+        whole = {outcome.component for outcome in client.refreshed or () if outcome.ending is Ending.WHOLE}
+        for write in [write for write in self._left if write.component in whole]:
+            known = client.known.sets.get(write.component)
+            number = None if known is None else known.number(write.name)
+            value = None if known is None or number is None else known.values[number]
+            write.holds = None if value is None else float(value)
+            is_so = known is not None and number is not None and value == _held(known, number, write.value)
+            write.state, write.words = (DONE, HOLDS) if is_so else (FAILED, _not_held(write.holds))
+            self._left.remove(write)
+            self._ended.append(write)
 
     def _compare(self, line: VehicleLine) -> None:
         """Write values that are other than those that the archive has."""
@@ -122,6 +153,19 @@ class ParameterFollower:
     def _writer(self, component: int, name: str, value: float) -> str | None:
         """Who has set a value that the vehicle holds now."""
         for write in reversed(self.writes):
-            if (write.component, write.name) == (component, name) and write.state == "done" and write.holds == value:
+            if (write.component, write.name) == (component, name) and write.state == DONE and write.holds == value:
                 return write.user
         return None
+
+
+def _held(known: KnownSet, number: int, value: float) -> object:
+    """A value as its parameter holds it; what it cannot hold is itself."""
+    try:
+        return fitting(known.descriptions[number], value)
+    except ParameterValueError:
+        return value
+
+
+def _not_held(holds: float | None) -> str:
+    told = "does not say what it holds" if holds is None else f"holds {holds:.9g}"
+    return f"the station was started anew before the vehicle had answered; the vehicle {told}"

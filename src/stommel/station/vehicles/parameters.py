@@ -6,6 +6,7 @@ from typing import Any
 from stommel.archive import Archive
 from stommel.errors import StommelError
 from stommel.link.endings import Ending
+from stommel.link.parameters.encoding import fitting
 from stommel.link.parameters.known import KnownSet
 from stommel.link.shore.shore_end import ShoreEnd
 from stommel.station.live.events import Happening
@@ -13,8 +14,9 @@ from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.opening import MissingError
-from stommel.station.vehicles.parameter_follower import WITHIN, ParameterFollower, Write
+from stommel.station.vehicles.parameter_follower import MOST_WRITES, WITHIN, ParameterFollower
 from stommel.station.vehicles.parameter_rows import ParameterRow, ParameterRows
+from stommel.station.vehicles.parameter_writes import WAITING, Write, WriteRows
 
 MOST_WAITING = 50
 """Writings of one vehicle that wait for it."""
@@ -36,71 +38,72 @@ class Parameters:
     """
 
     def __init__(self, archive: Archive, hub: Hub, lines: Mapping[int, VehicleLine]) -> None:
-        self._rows, self._hub, self._lines = ParameterRows(archive), hub, lines
+        self._rows, self._writes = ParameterRows(archive), WriteRows(archive)
+        self._hub, self._lines = hub, lines
         self._followers: dict[int, ParameterFollower] = {}
 
     def follow(self, line: VehicleLine) -> None:
         """Take in a vehicle, before its line is started."""
-        follower = self._followers[line.vehicle] = ParameterFollower(self._rows, self._tell)
+        left = self._writes.last(line.vehicle, MOST_WRITES)
+        follower = self._followers[line.vehicle] = ParameterFollower(self._rows, self._writes, self._tell, left)
         line.followers.append(follower)
 
     def known(self, vehicle: int) -> dict[str, Any]:
-        """All parameters as they are known now, as the API tells them."""
-        follower = self._followers[vehicle]
-
-        def look(end: ShoreEnd, t: float) -> dict[str, Any]:
-            client = end.parameters
-            progress = client.progress(t)
-            ended = {outcome.component: outcome for outcome in client.refreshed or ()}
-            running = client.refreshed is None and progress.of > 0
-            return {
-                "refreshing": progress._asdict() if running else None,
-                "components": [
-                    {
-                        "component": known.component, "name": known.name, "state": known.state.name.lower(),
-                        "whole": known.component in ended and ended[known.component].ending is Ending.WHOLE,
-                        "reason": ended[known.component].words if known.component in ended else "not asked for yet",
-                        "parameters": _described(known, follower.latest or {}),
-                    }
-                    for known in sorted(client.known.sets.values(), key=lambda each: each.component)
-                ],
-                "missing": [
-                    {"component": outcome.component, "name": outcome.name, "reason": outcome.words}
-                    for outcome in ended.values()
-                    if outcome.component not in client.known.sets
-                ],
-                "notes": list(client.known.notes),
-                "writes": [write.told() for write in reversed(follower.writes)],
-            }  # fmt: skip
-
-        return ask(self._lines[vehicle], look)
+        """All parameters as they were known when the line looked last, as the API tells them; waits for no line."""
+        line, follower = self._lines[vehicle], self._followers[vehicle]
+        client, latest = line.end.parameters, follower.latest or {}
+        ended = {outcome.component: outcome for outcome in client.refreshed or ()}
+        sets = dict(client.known.sets)  # each is replaced as a whole, in the line's thread
+        return {
+            "refreshing": follower.refreshing,
+            "components": [
+                {
+                    "component": known.component, "name": known.name, "state": known.state.name.lower(),
+                    "whole": known.component in ended and ended[known.component].ending is Ending.WHOLE,
+                    "reason": ended[known.component].words if known.component in ended else "not asked for yet",
+                    "parameters": _described(known, latest),
+                }
+                for _, known in sorted(sets.items())
+            ],
+            "missing": [
+                {"component": outcome.component, "name": outcome.name, "reason": outcome.words}
+                for outcome in ended.values()
+                if outcome.component not in sets
+            ],
+            "notes": list(client.known.notes),
+            "writes": [write.told() for write in list(follower.writes)[::-1]],
+        }  # fmt: skip
 
     def refresh(self, vehicle: int) -> None:
         """Ask the vehicle for all; what has not changed costs one message."""
-        ask(self._lines[vehicle], lambda end, t: end.parameters.refresh(t, WITHIN))
+        follower = self._followers[vehicle]
+        ask(self._lines[vehicle], lambda end, t: follower.refresh(end.parameters, t))
 
     def write(self, vehicle: int, user: str, component: int, name: str, value: float) -> Write:
-        """Begin to set a parameter; what becomes of it is told as it happens.
+        """Begin to set a parameter, once that is written down; what becomes of it is told as it happens.
 
         Raises
         ------
         MissingError
             It is not known that there is such a parameter.
         StommelError
-            It cannot have the value, or too many writings wait.
+            It cannot have the value, too many writings wait, or the archive takes nothing.
         """
         line, follower = self._lines[vehicle], self._followers[vehicle]
 
         def begin(end: ShoreEnd, t: float) -> Write:
             known = end.parameters.known.sets.get(component)
-            if known is None or known.number(name) is None:
+            number = None if known is None else known.number(name)
+            if known is None or number is None:
                 raise MissingError(
                     f"vehicle {vehicle} has told of no parameter {name} of component {component}; refresh them first"
                 )
-            if sum(write.state == "waiting" for write in follower.writes) >= MOST_WAITING:
+            fitting(known.descriptions[number], value)
+            if sum(write.state == WAITING for write in follower.writes) >= MOST_WAITING:
                 raise ParameterError(f"vehicle {vehicle}: {MOST_WAITING} writings wait for it; wait for some of them")
-            ticket = end.parameters.write(component, name, value, WITHIN)
-            write = Write(ticket, component, name, value, user, line.clock.of_link(t))
+            write = Write(0, component, name, value, user, line.clock.of_link(t))
+            self._writes.add(vehicle, write)
+            write.ticket = end.parameters.write(component, name, value, WITHIN)
             follower.writes.append(write)
             return write
 

@@ -19,6 +19,7 @@ def make_doings() -> None:
     _make_missions()
     _make_notes()
     _make_parameters()
+    _make_parameter_writes()
     _make_sessions()
     _make_tokens()
     _make_command_history()
@@ -206,6 +207,25 @@ def _make_parameters() -> None:
     op.create_index(
         "ix_parameters_vehicle_id_component_name_t_us", "parameters", ["vehicle_id", "component", "name", "t_us"]
     )
+
+
+def _make_parameter_writes() -> None:
+    op.create_table(
+        "parameter_writes",
+        sa.Column("id", _NUMBER, autoincrement=True, nullable=False),
+        sa.Column("vehicle_id", sa.Integer(), nullable=False),
+        sa.Column("component", sa.Integer(), nullable=False),
+        sa.Column("name", sa.String(), nullable=False),
+        sa.Column("value", sa.Double(), nullable=False),
+        sa.Column("user", sa.String(), nullable=False),
+        sa.Column("t_us", sa.BigInteger(), nullable=False),
+        sa.Column("state", sa.String(), nullable=False),
+        sa.Column("words", sa.Text(), nullable=False),
+        sa.Column("holds", sa.Double()),
+        sa.ForeignKeyConstraint(["vehicle_id"], ["vehicles.id"], name="fk_parameter_writes_vehicle_id"),
+        sa.PrimaryKeyConstraint("id", name="pk_parameter_writes"),
+    )
+    op.create_index("ix_parameter_writes_vehicle_id_id", "parameter_writes", ["vehicle_id", "id"])
 
 
 def _make_sessions() -> None:

@@ -61,7 +61,7 @@ class Refreshing(BaseModel):
 
 
 class ParameterWrite(BaseModel):
-    """A value that somebody sets; it waits for the vehicle, but not over a restart of the station."""
+    """A value that somebody sets; it waits for the vehicle, and after a restart the vehicle is asked what it holds."""
 
     ticket: int
     component: int

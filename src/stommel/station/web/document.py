@@ -12,20 +12,24 @@ from stommel.station.web.app import api
 
 
 def schemas(document: dict[str, Any]) -> dict[str, Any]:
-    """The document without its routes, and without the titles that say every name again."""
-    found: dict[str, Any] = _untitled(
+    """The shapes of the document alone: no routes, no titles, and no words, which change more often."""
+    found: dict[str, Any] = _bare(
         document | {"paths": {}, "components": {"schemas": document["components"]["schemas"]}}
     )
     return found
 
 
-def _untitled(part: Any) -> Any:
-    """The same schemas without titles; a property may have that name."""
+def _bare(part: Any) -> Any:
+    """The same schemas without titles and descriptions; a property may have that name."""
     if isinstance(part, list):
-        return [_untitled(each) for each in part]
+        return [_bare(each) for each in part]
     if not isinstance(part, dict):
         return part
-    return {key: _untitled(value) for key, value in part.items() if not (key == "title" and isinstance(value, str))}
+    return {
+        key: _bare(value)
+        for key, value in part.items()
+        if key not in ("title", "description") or not isinstance(value, str)
+    }
 
 
 def main(arguments: list[str]) -> None:

@@ -9,7 +9,8 @@ from sqlalchemy import Connection, func, select
 
 from stommel.archive.archive import Archive
 from stommel.archive.ctd_storing import HOUR_US
-from stommel.archive.schema import ctd, ctd_hours
+from stommel.archive.log_tables import ctd_hours
+from stommel.archive.schema import ctd
 
 PIECE = 100_000
 """Samples that are read at once."""

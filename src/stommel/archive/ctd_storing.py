@@ -5,9 +5,10 @@ from collections.abc import Iterable, Sequence
 
 from sqlalchemy import Connection, func, select, update
 
+from stommel.archive.log_tables import ctd_hours
 from stommel.archive.numbers import known
 from stommel.archive.rows import CtdRow
-from stommel.archive.schema import ctd, ctd_hours, vehicles
+from stommel.archive.schema import ctd, vehicles
 from stommel.archive.times import microseconds
 from stommel.archive.upserting import insert_rows
 

@@ -16,11 +16,14 @@ from sqlalchemy import (
     LargeBinary,
     String,
     Table,
-    UniqueConstraint,
 )
 
 from stommel.archive.columns import NUMBER, metadata, number_column, vehicle_column
+from stommel.archive.log_tables import ctd_hours, logs, profiles
 from stommel.archive.wording import Name, Words
+
+LOG_TABLES = (ctd_hours, logs, profiles)
+"""Tables that have a file of their own."""
 
 vehicles = Table(
     "vehicles",
@@ -114,19 +117,14 @@ dives = Table(
     Column("dive", BigInteger, primary_key=True, autoincrement=False),
     Column("t_begin_us", BigInteger, primary_key=True, autoincrement=False),
     Column("t_end_us", BigInteger),
-    *(
-        Column(name, Double)
-        for name in (
-            "latitude_begin",
-            "longitude_begin",
-            "latitude_end",
-            "longitude_end",
-            "greatest_depth_m",
-            "current_north_m_s",
-            "current_east_m_s",
-            "energy_j",
-        )
-    ),
+    Column("latitude_begin", Double),
+    Column("longitude_begin", Double),
+    Column("latitude_end", Double),
+    Column("longitude_end", Double),
+    Column("greatest_depth_m", Double),
+    Column("current_north_m_s", Double),
+    Column("current_east_m_s", Double),
+    Column("energy_j", Double),
     Column("log_id", NUMBER),  # of the log that told of it; none: the radio alone
 )
 
@@ -142,57 +140,6 @@ ctd = Table(
     Column("log_id", NUMBER),  # of the log that it is from; none: it came by radio
     sqlite_with_rowid=False,
 )
-
-ctd_hours = Table(
-    "ctd_hours",
-    metadata,
-    Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
-    Column("hour", BigInteger, primary_key=True, autoincrement=False),  # since 1970
-    Column("count", BigInteger, nullable=False),
-    Column("change", BigInteger, nullable=False),  # of vehicles.ctd_changes, that touched it last
-    Index("ix_ctd_hours_vehicle_id_change", "vehicle_id", "change"),
-    sqlite_with_rowid=False,
-)
-"""How many CTD samples each hour has; whoever knows them up to a change reads what has changed since alone."""
-
-profiles = Table(
-    "profiles",
-    metadata,
-    Column("vehicle_id", Integer, primary_key=True, autoincrement=False),
-    Column("first_us", BigInteger, primary_key=True, autoincrement=False),
-    Column("last_us", BigInteger, nullable=False),
-    Column("turned_us", BigInteger, nullable=False),  # the turning point before
-    Column("settled", Boolean, nullable=False),  # whether no later sample can change it
-    Column("direction", Integer, nullable=False),  # 1 down, -1 up
-    Column("samples", BigInteger, nullable=False),
-    Column("dive", BigInteger),
-    *(Column(name, Double) for name in ("latitude", "longitude", "least_depth_m", "greatest_depth_m")),
-    sqlite_with_rowid=False,
-)
-"""What was found in the CTD samples, so that it is not sought again after a restart; it may be emptied at any time."""
-
-logs = Table(
-    "logs",
-    metadata,
-    number_column(),
-    vehicle_column(),
-    Column("sha256", String(64), nullable=False),
-    Column("name", Name, nullable=False),
-    Column("size", BigInteger, nullable=False),
-    Column("series", Name, nullable=False),  # as its header says
-    Column("software", Name, nullable=False),
-    Column("state", Name, nullable=False),  # going, taken or refused
-    Column("words", Words, nullable=False),  # whether it was whole; why it was refused
-    Column("offset", BigInteger, nullable=False),  # up to where it is in the archive [byte]
-    Column("records", BigInteger, nullable=False),
-    Column("samples", BigInteger, nullable=False),
-    Column("dives", BigInteger, nullable=False),
-    Column("begin_us", BigInteger),
-    Column("end_us", BigInteger),
-    Column("changed_us", BigInteger, nullable=False),  # by the station's clock
-    UniqueConstraint("vehicle_id", "sha256"),
-)
-"""Files of vehicles' logs that were taken in, each once by its content; telemetry from begin to end is from it too."""
 
 commands = Table(
     "commands",

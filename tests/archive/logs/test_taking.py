@@ -10,11 +10,13 @@ import pytest
 from sqlalchemy import select
 
 from stommel.archive import Archive, ArchiveBusyError, Batch, CtdRow, DiveRow
+from stommel.archive.columns import metadata
+from stommel.archive.log_tables import logs
 from stommel.archive.logs import decoding
 from stommel.archive.logs.decoding import AT_ONCE
 from stommel.archive.logs.rows import GOING, REFUSED, TAKEN, LogRow
 from stommel.archive.logs.taking import is_log, take_log
-from stommel.archive.schema import ctd, logs, metadata
+from stommel.archive.schema import ctd
 from stommel.errors import FileError
 from stommel.messages.log.reader import read_log
 from stommel.station.channels import channel_named

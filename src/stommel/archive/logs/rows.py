@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 from sqlalchemy import func, select, update
 
 from stommel.archive.archive import Archive
-from stommel.archive.schema import channels, dives, logs, samples
+from stommel.archive.log_tables import logs
+from stommel.archive.schema import channels, dives, samples
 from stommel.archive.times import microseconds, seconds
 
 GOING, TAKEN, REFUSED = "going", "taken", "refused"

@@ -7,7 +7,8 @@ from sqlalchemy import select, update
 
 from stommel.archive.archive import Archive
 from stommel.archive.errors import ArchiveError
-from stommel.archive.schema import profiles, vehicles
+from stommel.archive.log_tables import profiles
+from stommel.archive.schema import vehicles
 from stommel.archive.upserting import insert_rows
 from stommel.data.summaries import ProfileSummary
 

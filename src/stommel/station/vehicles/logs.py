@@ -9,9 +9,10 @@ from typing import Any
 from sqlalchemy import exists, select
 
 from stommel.archive import Archive, ArchiveError
+from stommel.archive.log_tables import logs
 from stommel.archive.logs.rows import REFUSED, TAKEN, LogRow, LogRows
 from stommel.archive.logs.taking import take_log
-from stommel.archive.schema import files, logs
+from stommel.archive.schema import files
 from stommel.errors import StommelError
 from stommel.files.opening import read_bytes
 from stommel.messages.log.names import log_name

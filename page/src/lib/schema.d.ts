@@ -678,7 +678,7 @@ export interface components {
             notes: string[];
             writes: components["schemas"]["ParameterWrite"][];
         };
-        /** @description A value that somebody sets; it waits for the vehicle, but not over a restart of the station. */
+        /** @description A value that somebody sets; it waits for the vehicle, and after a restart the vehicle is asked what it holds. */
         ParameterWrite: {
             ticket: number;
             component: number;

@@ -7,7 +7,6 @@ export type paths = Record<string, never>;
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
-        /** @description When a dive is broken off. */
         Aborts: {
             depth_m?: number | null;
             /** @default 12 */
@@ -18,12 +17,10 @@ export interface components {
             leak: boolean;
             internal_pressure_kpa?: number | null;
         };
-        /** @description What is said to an alarm. */
         Acknowledgement: {
             /** @default  */
             note: string;
         };
-        /** @description One raising of an alarm; times are those of the vehicle's clock [s since 1970]. */
         AlarmRow: {
             id: number | null;
             vehicle: number | null;
@@ -38,7 +35,6 @@ export interface components {
             value: number | null;
             note: string | null;
         };
-        /** @description How people who are away are told. */
         AlertInfo: {
             ways: string[];
             /** @enum {string} */
@@ -46,18 +42,15 @@ export interface components {
             quiet_s: number;
             cleared: boolean;
         };
-        /** @description What became of a test along one way. */
         AlertTried: {
             way: string;
             sent: boolean;
             reason: string;
         };
-        /** @description Who asks. */
         Asking: {
             name: string;
             role: components["schemas"]["Role"];
         };
-        /** @description One action of somebody; `t` in seconds since 1970. */
         AuditEntry: {
             entry: number;
             t: number;
@@ -67,13 +60,11 @@ export interface components {
             vehicle: number | null;
             detail: unknown;
         };
-        /** @description What is left of the battery. */
         Battery: {
             share: number | null;
             voltage_v: number | null;
             t: number;
         };
-        /** @description A value over time. */
         ChannelInfo: {
             key: string;
             words: string;
@@ -88,13 +79,11 @@ export interface components {
                 [key: string]: string;
             } | null;
         };
-        /** @description Everything that is wrong with a plan, or its orders. */
         Checked: {
             problems: components["schemas"]["Problem"][];
             warnings: string[];
             orders: string | null;
         };
-        /** @description A command that was given; times are of the vehicle's clock [s since 1970]. */
         Command: {
             id: string;
             vehicle: number;
@@ -113,7 +102,6 @@ export interface components {
             is_last: boolean;
             percent: number | null;
         };
-        /** @description A command, and all that became of it. */
         CommandDetail: {
             id: string;
             vehicle: number;
@@ -133,14 +121,12 @@ export interface components {
             percent: number | null;
             history: components["schemas"]["CommandState"][];
         };
-        /** @description Something that a vehicle can be told. */
         CommandKind: {
             name: string;
             words: string;
             confirm: string;
             parameters: components["schemas"]["CommandParameter"][];
         };
-        /** @description A number that a command carries. */
         CommandParameter: {
             name: string;
             unit: string;
@@ -149,20 +135,17 @@ export interface components {
             words: string;
             whole: boolean;
         };
-        /** @description What a command was at a time. */
         CommandState: {
             t: number;
             state: string;
             words: string;
         };
-        /** @description One dive of the mission, counted from its first. */
         Compared: {
             dive: number;
             predicted: components["schemas"]["PlannedDive"] | null;
             flown: components["schemas"]["FlownDive"] | null;
             difference: components["schemas"]["DiveDifference"] | null;
         };
-        /** @description Planned against flown. */
         Comparison: {
             mission: string | null;
             t: number | null;
@@ -170,7 +153,6 @@ export interface components {
             reason: string | null;
             left_geofence?: components["schemas"]["TrackPoint"] | null;
         };
-        /** @description Parameters of one component. */
         ComponentParameters: {
             component: number;
             name: string;
@@ -180,31 +162,26 @@ export interface components {
             reason: string;
             parameters: components["schemas"]["Parameter"][];
         };
-        /** @description A corner of a geofence [deg]. */
         Corner: {
             latitude: number;
             longitude: number;
         };
-        /** @description Depth-averaged current of a dive. */
         Current: {
             north_m_s: number;
             east_m_s: number;
             dive: number;
         };
-        /** @description What to draw of a channel. */
         Curve: {
             t: number[];
             value: (number | null)[];
             samples: number;
             reduced: boolean;
         };
-        /** @description A line of equal potential density anomaly. */
         DensityLine: {
             level: number;
             absolute_salinity: number[];
             conservative_temperature: number[];
         };
-        /** @description Conservative Temperature against Absolute Salinity. */
         Diagram: {
             samples: number;
             absolute_salinity: number[];
@@ -214,7 +191,6 @@ export interface components {
             profile: number[];
             lines: components["schemas"]["DensityLine"][];
         };
-        /** @description A dive as the vehicle told it, and what follows. */
         Dive: {
             dive: number;
             t_begin: number;
@@ -228,7 +204,6 @@ export interface components {
             current_east_m_s: number | null;
             energy_j: number | null;
         };
-        /** @description Flown less predicted. */
         DiveDifference: {
             end_s: number | null;
             duration_s: number | null;
@@ -236,7 +211,6 @@ export interface components {
             depth_m: number | null;
             energy_j: number | null;
         };
-        /** @description How the vehicle dives. */
         Dives: {
             depth_m: number;
             pitch_deg: number;
@@ -252,12 +226,10 @@ export interface components {
             /** @default 0 */
             drift_hours: number;
         };
-        /** @description It has begun. */
         Done: {
             /** @default true */
             done: boolean;
         };
-        /** @description Feedback on depth while the vehicle hangs in the water. */
         DriftControl: {
             /** @default 60 */
             gain_ml_s_m: number;
@@ -270,12 +242,10 @@ export interface components {
             /** @default 60 */
             period_s: number;
         };
-        /** @description When something is expected, and why. */
         Expected: {
             t: number;
             why: string;
         };
-        /** @description A dive that the vehicle reported. */
         FlownDive: {
             dive: number;
             t_begin: number;
@@ -289,7 +259,6 @@ export interface components {
             current_east_m_s: number | null;
             energy_j: number | null;
         };
-        /** @description The plan of the mission that the vehicle holds. */
         FlownPlan: {
             plan: components["schemas"]["StationPlan"];
             remarks: string[];
@@ -297,18 +266,15 @@ export interface components {
             sha256: string;
             t: number | null;
         };
-        /** @description A folder aboard. */
         FolderAnswer: {
             folder: string;
             entries: components["schemas"]["FolderEntry"][];
         };
-        /** @description What stands in a folder aboard. */
         FolderEntry: {
             name: string;
             size: number;
             is_folder: boolean;
         };
-        /** @description A frame of the link. */
         Frame: {
             number: number;
             t: number;
@@ -326,7 +292,6 @@ export interface components {
                 [key: string]: boolean | number | string | (number | string | null)[] | null;
             };
         };
-        /** @description How waypoints are sought. */
         Guidance: {
             /** @default 500 */
             acceptance_radius_m: number;
@@ -335,7 +300,6 @@ export interface components {
             /** @default false */
             repeat: boolean;
         };
-        /** @description Feedback on heading by rudder or rolling mass; its gain follows from how the flight turns. */
         HeadingControl: {
             /** @default 30 */
             response_s: number;
@@ -344,7 +308,6 @@ export interface components {
             /** @default 10 */
             limit_deg: number;
         };
-        /** @description Who commands a vehicle, since when; `taken_from` and `reason` where it was taken by force. */
         Hold: {
             vehicle: number;
             user: string;
@@ -353,11 +316,9 @@ export interface components {
             taken_from?: string | null;
             reason?: string | null;
         };
-        /** @description Who commands the vehicle; null where nobody does. */
         HolderInfo: {
             holder: components["schemas"]["Hold"] | null;
         };
-        /** @description A job, and its result once it is done. */
         Job: {
             job: string;
             /** @enum {string} */
@@ -367,19 +328,16 @@ export interface components {
             result: components["schemas"]["Preview"] | null;
             error: components["schemas"]["JobError"] | null;
         };
-        /** @description Why a job failed. */
         JobError: {
             reason: string;
             problems: components["schemas"]["Problem"][];
         };
-        /** @description The latest of everything. */
         Latest: {
             now: number;
             values: {
                 [key: string]: components["schemas"]["LatestValue"];
             };
         };
-        /** @description The latest value of a channel. */
         LatestValue: {
             t: number;
             value: number;
@@ -387,7 +345,6 @@ export interface components {
             period_s: number;
             stale: boolean;
         };
-        /** @description A layer of the chart; an image is at `/layers/{id}/image`. */
         LayerRow: {
             id: number;
             name: string;
@@ -402,7 +359,6 @@ export interface components {
                 [key: string]: unknown;
             } | null;
         };
-        /** @description A limit of a channel. */
         Limit: {
             low: number | null;
             high: number | null;
@@ -417,7 +373,6 @@ export interface components {
             severity: "notice" | "warning" | "critical";
             channel: string;
         };
-        /** @description What a channel may be, and when somebody is told that it is not. */
         LimitValues: {
             low?: number | null;
             high?: number | null;
@@ -431,7 +386,6 @@ export interface components {
              */
             severity: "notice" | "warning" | "critical";
         };
-        /** @description How the link to a vehicle is. */
         LinkAnswer: {
             now: number;
             heard: boolean;
@@ -445,7 +399,6 @@ export interface components {
             figures: components["schemas"]["LinkFigures"];
             notes: string[];
         };
-        /** @description Counts since the station was started; times in seconds, null before they were measured. */
         LinkFigures: {
             good: number;
             bad: number;
@@ -464,7 +417,6 @@ export interface components {
             surface_time_left_s: number | null;
             is_signing: boolean;
         };
-        /** @description Something in the log book; times are those of the vehicle [s since 1970]. */
         LogEntry: {
             /** @enum {string} */
             kind: "alarm" | "command" | "mission" | "note";
@@ -474,28 +426,23 @@ export interface components {
             words: string;
             state: string | null;
         };
-        /** @description A part of the log book, the newest first. */
         LogPage: {
             entries: components["schemas"]["LogEntry"][];
             next: string | null;
         };
-        /** @description Who is logged in. */
         LoggedIn: {
             name: string;
             role: components["schemas"]["Role"];
         };
-        /** @description Name and password. */
         Login: {
             name: string;
             password: string;
         };
-        /** @description A component that has told nothing. */
         MissingComponent: {
             component: number;
             name: string;
             reason: string;
         };
-        /** @description A mission; times are of the vehicle's clock [s since 1970]. */
         Mission: {
             id: number;
             vehicle: number;
@@ -507,7 +454,6 @@ export interface components {
             state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted";
             words: string;
         };
-        /** @description Which mission a vehicle holds, and what is on its way; null where that is not known. */
         MissionAboard: {
             number: number | null;
             name: string | null;
@@ -522,7 +468,6 @@ export interface components {
             upload: components["schemas"]["MissionOnItsWay"] | null;
             waiting: number;
         };
-        /** @description A mission with its orders and what became of it. */
         MissionDetail: {
             id: number;
             vehicle: number;
@@ -539,7 +484,6 @@ export interface components {
             } | null;
             history: components["schemas"]["MissionStep"][];
         };
-        /** @description A mission that is being sent. */
         MissionOnItsWay: {
             id: number;
             vehicle: number;
@@ -552,18 +496,15 @@ export interface components {
             words: string;
             progress: components["schemas"]["UploadProgress"] | null;
         };
-        /** @description What a mission was from a time on. */
         MissionStep: {
             t: number;
             user: string | null;
             state: string;
             words: string;
         };
-        /** @description A time [s since 1970]. */
         Moment: {
             t: number;
         };
-        /** @description A command to give. */
         NewCommand: {
             name: string;
             /** @default {} */
@@ -578,14 +519,12 @@ export interface components {
              */
             when: "at_once" | "at_next_surfacing" | "until_expiry";
         };
-        /** @description GeoJSON that shall be drawn: RFC 7946, longitude first. */
         NewLayer: {
             name: string;
             geojson: {
                 [key: string]: unknown;
             };
         };
-        /** @description Orders as a text, or a plan out of which they are made. */
         NewMission: {
             orders?: string | null;
             plan?: {
@@ -598,18 +537,15 @@ export interface components {
             /** @default 21600 */
             valid_for_s: number;
         };
-        /** @description What shall be written; of now, if no time is given. */
         NewNote: {
             vehicle?: number | null;
             t?: number | null;
             words: string;
         };
-        /** @description The present password and the one from now on. */
         NewPassword: {
             password: string;
             new_password: string;
         };
-        /** @description What shall be told again, from `begin` to `end` by the vehicle's clock [s since 1970]. */
         NewReplay: {
             vehicle: number;
             begin: number;
@@ -617,7 +553,6 @@ export interface components {
             /** @default 1 */
             speed: number;
         };
-        /** @description A token to make. */
         NewToken: {
             name: string;
             role: components["schemas"]["Role"];
@@ -625,21 +560,17 @@ export interface components {
             days: number;
             user?: string | null;
         };
-        /** @description A file to fetch. */
         NewTransfer: {
             path: string;
         };
-        /** @description Somebody to add. */
         NewUser: {
             name: string;
             password: string;
             role: components["schemas"]["Role"];
         };
-        /** @description A value to set. */
         NewValue: {
             value: number;
         };
-        /** @description What somebody wrote. */
         NoteRow: {
             id: number;
             vehicle: number | null;
@@ -648,16 +579,13 @@ export interface components {
             user: string;
             words: string;
         };
-        /** @description Orders as the plan that makes them again. */
         OpenedPlan: {
             plan: components["schemas"]["StationPlan"];
             remarks: string[];
         };
-        /** @description Text of an orders file. */
         OrdersBody: {
             orders: string;
         };
-        /** @description A parameter as it is known. */
         Parameter: {
             name: string;
             kind: string;
@@ -670,7 +598,6 @@ export interface components {
             since: number | null;
             user: string | null;
         };
-        /** @description All parameters of a vehicle. */
         ParameterAnswer: {
             refreshing: components["schemas"]["Refreshing"] | null;
             components: components["schemas"]["ComponentParameters"][];
@@ -678,7 +605,6 @@ export interface components {
             notes: string[];
             writes: components["schemas"]["ParameterWrite"][];
         };
-        /** @description A value that somebody sets; it waits for the vehicle, and after a restart the vehicle is asked what it holds. */
         ParameterWrite: {
             ticket: number;
             component: number;
@@ -691,7 +617,6 @@ export interface components {
             words: string;
             holds: number | null;
         };
-        /** @description A value that a parameter had from a time on, by the vehicle's clock [s since 1970]. */
         PastValue: {
             component: number;
             name: string;
@@ -701,14 +626,12 @@ export interface components {
             user: string | null;
             source: string;
         };
-        /** @description Somebody with a name at this station; `added` in seconds since 1970. */
         Person: {
             name: string;
             role: components["schemas"]["Role"];
             added: number;
             disabled: boolean;
         };
-        /** @description Feedback on pitch. */
         PitchControl: {
             gain_mm_per_deg?: number | null;
             /** @default 0.5 */
@@ -718,14 +641,12 @@ export interface components {
             /** @default 0.5 */
             tolerance_mm: number;
         };
-        /** @description A plan, and the vehicle that it is for. */
         PlanBody: {
             vehicle?: number | null;
             plan: {
                 [key: string]: unknown;
             };
         };
-        /** @description One value of a plan. */
         PlanField: {
             key: string;
             words: string;
@@ -738,19 +659,16 @@ export interface components {
             required: boolean;
             default: unknown;
         };
-        /** @description A plan to begin with. */
         PlanTemplate: {
             name: string;
             words: string;
             plan: components["schemas"]["StationPlan"];
         };
-        /** @description Plans to begin with, and what a form needs of each value. */
         PlanTemplates: {
             templates: components["schemas"]["PlanTemplate"][];
             fields: components["schemas"]["PlanField"][];
             vehicles: string[];
         };
-        /** @description A predicted dive. */
         PlannedDive: {
             dive: number;
             t_begin: number;
@@ -764,24 +682,20 @@ export interface components {
             current_east_m_s: number | null;
             energy_j: number | null;
         };
-        /** @description Depth over the way of the first dives. */
         PlannedPath: {
             distance_m: number[];
             depth_m: number[];
         };
-        /** @description What becomes of a waypoint. */
         PlannedWaypoint: {
             number: number;
             reached: boolean;
             reached_utc: string | null;
             closest_m: number | null;
         };
-        /** @description A place on the surface. */
         Position: {
             latitude_deg: number;
             longitude_deg: number;
         };
-        /** @description A plan as the simulator flew it. */
         Preview: {
             verdict: string;
             outcome: string;
@@ -802,14 +716,12 @@ export interface components {
             left_geofence?: components["schemas"]["TrackPoint"] | null;
             warnings: string[];
         };
-        /** @description One thing wrong with a plan. */
         Problem: {
             key: string;
             value: string;
             reason: string;
             allowed: string;
         };
-        /** @description A profile: its line in the list, and its samples. */
         Profile: {
             about: components["schemas"]["ProfileLine"];
             units: {
@@ -819,7 +731,6 @@ export interface components {
                 [key: string]: (number | null)[];
             };
         };
-        /** @description A profile as a list shows it; null is what is not known. */
         ProfileLine: {
             number: number;
             direction: number;
@@ -832,20 +743,17 @@ export interface components {
             least_depth_m: number | null;
             greatest_depth_m: number | null;
         };
-        /** @description How far a refreshing is. */
         Refreshing: {
             done: number;
             of: number;
             seconds_left: number | null;
         };
-        /** @description What shall be otherwise; what is left out stays. */
         ReplayChange: {
             speed?: number | null;
             paused?: boolean | null;
             at?: number | null;
             skip_silence?: boolean | null;
         };
-        /** @description How far a replay has come; times are those of the vehicle [s since 1970]. */
         ReplayState: {
             replay: string;
             vehicle: number;
@@ -861,17 +769,12 @@ export interface components {
             silence: components["schemas"]["Silence"] | null;
             summary: components["schemas"]["VehicleSummary"];
         };
-        /**
-         * @description From the least to the most.
-         * @enum {string}
-         */
+        /** @enum {string} */
         Role: "viewer" | "pilot" | "admin";
-        /** @description How long it is tried. */
         RollBack: {
             /** @default 21600 */
             valid_for_s: number;
         };
-        /** @description A rudder. */
         RudderShape: {
             x_m: number;
             z_m: number;
@@ -879,7 +782,6 @@ export interface components {
             chord_m: number;
             travel_deg: number | null;
         };
-        /** @description When the CTD measures. */
         Sampling: {
             /** @default 10 */
             every_s: number;
@@ -893,7 +795,6 @@ export interface components {
              */
             phases: ("descent" | "drift" | "inflection" | "ascent")[];
         };
-        /** @description A variable in cells of depth, a column for each profile. */
         Section: {
             variable: string;
             words: string;
@@ -904,7 +805,6 @@ export interface components {
             profiles: components["schemas"]["SectionColumn"][];
             values: (number | null)[][];
         };
-        /** @description A profile of a section: means of its samples. */
         SectionColumn: {
             profile_number: number;
             profile_direction: number;
@@ -912,13 +812,11 @@ export interface components {
             latitude: number | null;
             longitude: number | null;
         };
-        /** @description Something that the vehicle said in words; severity 0 is the worst, 7 the least. */
         Sentence: {
             t: number;
             severity: number;
             words: string;
         };
-        /** @description Channels over a range of time [s since 1970]. */
         SeriesAnswer: {
             begin: number;
             end: number;
@@ -926,7 +824,6 @@ export interface components {
                 [key: string]: components["schemas"]["Curve"];
             };
         };
-        /** @description How a vehicle looks; x is forward of the centre of buoyancy, z down. */
         Shape: {
             name: string;
             length_m: number;
@@ -951,22 +848,18 @@ export interface components {
             bladder_m: number[] | null;
             assumed: string[];
         };
-        /** @description A stretch in which nothing was received. */
         Silence: {
             begin: number;
             end: number;
             is_last: boolean;
         };
-        /** @description Of the last dive, over ground. */
         SpeedMadeGood: {
             m_s: number;
             course_deg: number;
         };
-        /** @description A job that waits or runs. */
         StartedJob: {
             job: string;
         };
-        /** @description States and phases; a transition is from, to, and when. */
         StateMachine: {
             states: string[];
             transitions: [
@@ -981,7 +874,6 @@ export interface components {
                 string
             ][];
         };
-        /** @description What everybody may know of the station. */
         StationInfo: {
             name: string;
             version: string;
@@ -990,7 +882,6 @@ export interface components {
             login_required: boolean;
             demo: boolean;
         };
-        /** @description A plan, as the station keeps it. */
         StationPlan: {
             /**
              * @default 1
@@ -1082,7 +973,6 @@ export interface components {
             water: components["schemas"]["Water"];
             neutral_density_kg_m3?: number | null;
         };
-        /** @description A file that lies whole ashore. */
         StoredFile: {
             id: number;
             path: string;
@@ -1093,7 +983,6 @@ export interface components {
             user: string | null;
             log: components["schemas"]["StoredLog"] | null;
         };
-        /** @description How far a log that lies ashore is in the archive; times are of the vehicle's clock [s since 1970]. */
         StoredLog: {
             /** @enum {string} */
             state: "waiting" | "going" | "taken" | "refused";
@@ -1104,7 +993,6 @@ export interface components {
             begin: number | null;
             end: number | null;
         };
-        /** @description What happens at the surface. */
         Surfacing: {
             /** @default 300 */
             session_s: number;
@@ -1117,14 +1005,12 @@ export interface components {
             /** @default 1 */
             depth_m: number;
         };
-        /** @description How to take command. */
         Take: {
             /** @default false */
             by_force: boolean;
             /** @default  */
             reason: string;
         };
-        /** @description A token without its secret; times in seconds since 1970, None where it never ends or was never used. */
         Token: {
             token: number;
             user: string;
@@ -1134,12 +1020,10 @@ export interface components {
             expires: number | null;
             last_used: number | null;
         };
-        /** @description A token, with its secret for the only time. */
         TokenMade: {
             token: components["schemas"]["Token"];
             secret: string;
         };
-        /** @description Where a vehicle was [deg], how sure that is [m], and from what it is known: `gps` or `estimate`. */
         TrackAnswer: {
             t: number[];
             latitude: number[];
@@ -1147,13 +1031,11 @@ export interface components {
             sigma_m: (number | null)[];
             source: string[];
         };
-        /** @description A place of the predicted track. */
         TrackPoint: {
             t: number;
             lat: number;
             lon: number;
         };
-        /** @description A file on its way, or that was; times are of the vehicle's clock [s since 1970]. */
         Transfer: {
             id: number;
             vehicle: number;
@@ -1174,26 +1056,22 @@ export interface components {
             seconds_left: number | null;
             loss_share: number | null;
         };
-        /** @description Bytes. */
         UploadProgress: {
             done: number;
             of: number;
             seconds_left: number | null;
         };
-        /** @description What changes of somebody; what is left out stays. */
         UserChange: {
             role?: components["schemas"]["Role"] | null;
             disabled?: boolean | null;
             password?: string | null;
         };
-        /** @description An alarm that is raised. */
         VehicleAlarm: {
             key: string;
             words: string;
             /** @enum {string} */
             severity: "notice" | "warning" | "critical";
         };
-        /** @description How a vehicle is, and what it has. */
         VehicleDetail: {
             vehicle: number;
             name: string;
@@ -1225,23 +1103,12 @@ export interface components {
             limits: components["schemas"]["Limit"][];
             shape: components["schemas"]["Shape"] | null;
         };
-        /** @description Where a vehicle is. */
         VehiclePosition: {
             latitude: number;
             longitude: number;
             t: number;
             sigma_m: number | null;
         };
-        /**
-         * @description How a vehicle is; of what is null, `missing` has the reason.
-         *
-         *     Times are of its clock, which goes `speed` times as fast as ours.
-         *
-         *     - `next_surfacing`: start of this dive, or of the next one, and the mean duration of the last three dives.
-         *     - `speed_made_good`: between the positions at the begin and the end of the last dive, over ground.
-         *     - `current`: depth-averaged, of the last dive that has one, from its drift.
-         *     - `eta`: distance to the waypoint by the rate at which it has become less since the last dive began.
-         */
         VehicleSummary: {
             vehicle: number;
             name: string;
@@ -1270,7 +1137,6 @@ export interface components {
             };
             holder: string | null;
         };
-        /** @description The water that the plan expects: its density sets the ballast, its current moves the predicted track. */
         Water: {
             /**
              * @default east_china_sea
@@ -1287,20 +1153,17 @@ export interface components {
             /** @default 0 */
             east_m_s: number;
         };
-        /** @description A waypoint [deg], and within which distance it is reached. */
         Waypoint: {
             latitude: number;
             longitude: number;
             radius_m: number;
         };
-        /** @description A wing; its place is of the vehicle file, its outline a usual one. */
         WingShape: {
             x_m: number;
             span_m: number;
             chord_m: number;
             sweep_deg: number;
         };
-        /** @description An alarm was raised, ended or acknowledged. */
         AlarmEvent: {
             /** @constant */
             type: "event";
@@ -1312,7 +1175,6 @@ export interface components {
             kind: "alarm";
             data: components["schemas"]["AlarmRow"];
         };
-        /** @description A command was given, or something became of it. */
         CommandEvent: {
             /** @constant */
             type: "event";
@@ -1324,7 +1186,6 @@ export interface components {
             kind: "command";
             data: components["schemas"]["Command"];
         };
-        /** @description The vehicle told of a dive. */
         DiveEvent: {
             /** @constant */
             type: "event";
@@ -1336,21 +1197,18 @@ export interface components {
             kind: "dive";
             data: components["schemas"]["Dive"];
         };
-        /** @description A subscription has ended or was not begun; the others go on. */
         ErrorMessage: {
             /** @constant */
             type: "error";
             id: string;
             reason: string;
         };
-        /** @description The first word: how all vehicles are. */
         HelloMessage: {
             /** @constant */
             type: "hello";
             now: number;
             vehicles: components["schemas"]["VehicleSummary"][];
         };
-        /** @description Somebody took command, or gave it up. */
         HolderEvent: {
             /** @constant */
             type: "event";
@@ -1362,13 +1220,11 @@ export interface components {
             kind: "holder";
             data: components["schemas"]["Hold"] | components["schemas"]["NoHolder"];
         };
-        /** @description The limit of a channel from now on, and who set it. */
         LimitChange: {
             channel: string;
             user: string;
             limit: components["schemas"]["Limit"] | null;
         };
-        /** @description Somebody set the limit of a channel, or removed it. */
         LimitEvent: {
             /** @constant */
             type: "event";
@@ -1380,11 +1236,8 @@ export interface components {
             kind: "limit";
             data: components["schemas"]["LimitChange"];
         };
-        /** @description What the station says. */
         LiveMessage: components["schemas"]["HelloMessage"] | components["schemas"]["PingMessage"] | components["schemas"]["SummaryMessage"] | components["schemas"]["ValuesMessage"] | components["schemas"]["SamplesMessage"] | components["schemas"]["SamplesGapMessage"] | components["schemas"]["NewsGapMessage"] | components["schemas"]["ErrorMessage"] | (components["schemas"]["AlarmEvent"] | components["schemas"]["CommandEvent"] | components["schemas"]["LimitEvent"] | components["schemas"]["MissionEvent"] | components["schemas"]["ParameterEvent"] | components["schemas"]["TransferEvent"] | components["schemas"]["NoteEvent"] | components["schemas"]["HolderEvent"] | components["schemas"]["TextEvent"] | components["schemas"]["DiveEvent"] | components["schemas"]["LogEvent"] | components["schemas"]["ReplayEvent"]);
-        /** @description What a browser may say. */
         LiveRequest: components["schemas"]["Subscribe"] | components["schemas"]["Unsubscribe"];
-        /** @description A log that lies ashore, and how far it is in the archive. */
         LogChange: {
             /** @enum {string} */
             state: "waiting" | "going" | "taken" | "refused";
@@ -1397,7 +1250,6 @@ export interface components {
             name: string;
             sha256: string;
         };
-        /** @description Something became of a log that goes into the archive. */
         LogEvent: {
             /** @constant */
             type: "event";
@@ -1409,11 +1261,9 @@ export interface components {
             kind: "log";
             data: components["schemas"]["LogChange"];
         };
-        /** @description The vehicle told of the mission that it holds; the API has it. */
         MissionAboardChanged: {
             aboard: boolean;
         };
-        /** @description Something became of a mission. */
         MissionEvent: {
             /** @constant */
             type: "event";
@@ -1425,7 +1275,6 @@ export interface components {
             kind: "mission";
             data: components["schemas"]["Mission"] | components["schemas"]["MissionAboardChanged"];
         };
-        /** @description A reader was too slow: so many events are missing. */
         NewsGapMessage: {
             /** @constant */
             type: "gap";
@@ -1433,12 +1282,10 @@ export interface components {
             id: "";
             lost: number;
         };
-        /** @description Nobody holds command. */
         NoHolder: {
             vehicle: number;
             user: null;
         };
-        /** @description Somebody wrote into the log book. */
         NoteEvent: {
             /** @constant */
             type: "event";
@@ -1450,7 +1297,6 @@ export interface components {
             kind: "note";
             data: components["schemas"]["NoteRow"];
         };
-        /** @description Something became of a parameter, or of all. */
         ParameterEvent: {
             /** @constant */
             type: "event";
@@ -1462,23 +1308,19 @@ export interface components {
             kind: "parameter";
             data: components["schemas"]["ParameterWrite"] | components["schemas"]["ParametersRefreshed"];
         };
-        /** @description The parameters are up to date; the API has them. */
         ParametersRefreshed: {
             refreshed: boolean;
         };
-        /** @description The line stands. */
         PingMessage: {
             /** @constant */
             type: "ping";
         };
-        /** @description A sentence for people, and the key, the value and what is allowed where there is one. */
         Refusal: {
             reason: string;
             key: string | null;
             value: boolean | number | string | null;
             allowed: string | null;
         };
-        /** @description The first thing that is wrong, and all of them where several were looked for. */
         RefusalDetail: {
             reason: string;
             key: string | null;
@@ -1487,11 +1329,9 @@ export interface components {
             /** @default [] */
             problems: components["schemas"]["Refusal"][];
         };
-        /** @description An answer of 400 and more. */
         Refused: {
             detail: components["schemas"]["RefusalDetail"];
         };
-        /** @description A replay began, changed or ended. */
         ReplayEvent: {
             /** @constant */
             type: "event";
@@ -1503,7 +1343,6 @@ export interface components {
             kind: "replay";
             data: components["schemas"]["ReplayState"];
         };
-        /** @description A reader was too slow: some samples from a time on are missing. */
         SamplesGapMessage: {
             /** @constant */
             type: "gap";
@@ -1511,7 +1350,6 @@ export interface components {
             vehicle: number | string;
             from: number;
         };
-        /** @description Every sample that came since the last time. */
         SamplesMessage: {
             /** @constant */
             type: "samples";
@@ -1525,7 +1363,6 @@ export interface components {
                 ];
             };
         };
-        /** @description Ask for channels of a vehicle, or of a replay. */
         Subscribe: {
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -1538,14 +1375,12 @@ export interface components {
             /** @default false */
             every: boolean;
         };
-        /** @description How a vehicle is, at most once a second. */
         SummaryMessage: {
             /** @constant */
             type: "summary";
             vehicle: number | string;
             summary: components["schemas"]["VehicleSummary"];
         };
-        /** @description The vehicle said something in words. */
         TextEvent: {
             /** @constant */
             type: "event";
@@ -1557,7 +1392,6 @@ export interface components {
             kind: "text";
             data: components["schemas"]["Sentence"];
         };
-        /** @description Something became of a file on its way. */
         TransferEvent: {
             /** @constant */
             type: "event";
@@ -1569,7 +1403,6 @@ export interface components {
             kind: "transfer";
             data: components["schemas"]["Transfer"];
         };
-        /** @description Ask for no more. */
         Unsubscribe: {
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -1578,7 +1411,6 @@ export interface components {
             type: "unsubscribe";
             id: string;
         };
-        /** @description The latest value of each channel that has changed. */
         ValuesMessage: {
             /** @constant */
             type: "values";

@@ -19,7 +19,7 @@ from sqlalchemy import (
     UniqueConstraint,
 )
 
-from stommel.archive.columns import NUMBER, metadata, number_column, vehicle_column
+from stommel.archive.columns import NUMBER, metadata, number_column, value_columns, vehicle_column
 from stommel.archive.wording import Name, Words
 
 vehicles = Table(
@@ -114,14 +114,8 @@ dives = Table(
     Column("dive", BigInteger, primary_key=True, autoincrement=False),
     Column("t_begin_us", BigInteger, primary_key=True, autoincrement=False),
     Column("t_end_us", BigInteger),
-    Column("latitude_begin", Double),
-    Column("longitude_begin", Double),
-    Column("latitude_end", Double),
-    Column("longitude_end", Double),
-    Column("greatest_depth_m", Double),
-    Column("current_north_m_s", Double),
-    Column("current_east_m_s", Double),
-    Column("energy_j", Double),
+    *value_columns("latitude_begin", "longitude_begin", "latitude_end", "longitude_end", "greatest_depth_m"),
+    *value_columns("current_north_m_s", "current_east_m_s", "energy_j"),
     Column("log_id", NUMBER),  # of the log that told of it; none: the radio alone
 )
 
@@ -131,9 +125,7 @@ ctd = Table(
     vehicle_column(key=True),
     Column("t_us", BigInteger, primary_key=True, autoincrement=False),
     Column("dive", BigInteger),
-    Column("pressure_dbar", Double),
-    Column("temperature_degc", Double),
-    Column("conductivity_s_m", Double),
+    *value_columns("pressure_dbar", "temperature_degc", "conductivity_s_m"),
     Column("log_id", NUMBER),  # of the log that it is from; none: it came by radio
     sqlite_with_rowid=False,
 )

@@ -7,7 +7,7 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.page.past import Past
+from tests.page.past import GAP, Past, values
 from tests.page.waiting import at_rest, becomes, passes, until
 
 
@@ -26,8 +26,14 @@ def begun(page: Any, past: Past, speed: str = "60") -> Any:
     expect(page.get_by_role("textbox", name="From")).not_to_have_value("")
     page.get_by_role("spinbutton", name="Speed").fill(speed)
     page.get_by_role("button", name="Start the replay").click()
-    page.locator("[data-panel] canvas").first.wait_for()
+    page.locator(".tile .value").first.wait_for()
     return page
+
+
+def plots(page: Any) -> None:
+    """The plots of a replay."""
+    page.get_by_role("tab", name="Motion").click()
+    page.locator("[data-panel] canvas").first.wait_for()
 
 
 def states(past: Past) -> list[dict[str, Any]]:
@@ -58,7 +64,9 @@ def test_a_replay_shows_what_the_archive_has_of_that_time(page: Any, past: Past,
     assert state["paused"]
     assert past.begin < state["at"] < past.begin + 7200
     becomes(page, lambda: depth_told(page), pytest.approx(depth_at(past, state["at"]), abs=0.2))
+    plots(page)
     until(page, lambda: newest_drawn(page) > state["at"] - 30.0)
+    screenshot("replay-plots")
     passes(page, 700)
     assert states(past)[0]["at"] == state["at"], "while it is paused its time stands still"
     assert newest_drawn(page) <= state["at"] + 1e-3, "nothing is shown that had not happened yet"
@@ -66,8 +74,8 @@ def test_a_replay_shows_what_the_archive_has_of_that_time(page: Any, past: Past,
 
 def newest_drawn(page: Any) -> float:
     """Time of the newest depth that is drawn."""
-    drawn = page.evaluate("document.querySelector('[data-panel=path]').drawn")
-    return max((at for at, value in zip(*drawn["data"], strict=False) if value is not None), default=-math.inf)
+    drawn = page.evaluate("document.querySelector('[data-panel=path]').drawn?.data ?? [[], []]")
+    return max((at for at, value in zip(*drawn, strict=False) if value is not None), default=-math.inf)
 
 
 def test_a_replay_jumps_and_changes_its_speed(page: Any, past: Past) -> None:
@@ -91,6 +99,7 @@ def test_the_end_is_reached_and_begun_again(page: Any, past: Past) -> None:
     begun(page, past, "1000")
     again = page.get_by_role("button", name="From the beginning")
     again.wait_for(timeout=240_000)
+    page.get_by_text("This is the end of the replay").wait_for()
     becomes(page, lambda: states(past)[0]["at"], math.floor(past.begin) + 7200)
     page.get_by_role("combobox", name="Speed").select_option("1")
     becomes(page, lambda: states(past)[0]["speed"], 1.0)
@@ -147,3 +156,68 @@ def test_nobody_is_kept_from_replays(page: Any, past: Past, serious: Any, screen
     at_rest(begun(page, past))
     screenshot("replay-tablet-dark")
     assert serious() == []
+    plots(page)
+    assert serious() == []
+
+
+def test_the_whole_vehicle_is_shown_as_it_was_and_is_marked_as_the_past(page: Any, past: Past) -> None:
+    """Issue: live or any time in the past. Oracle: the closed form by which the past was made, and its first hours."""
+    begun(page, past, "1")
+    banner = page.get_by_role("toolbar", name="Replay")
+    banner.get_by_text("Past", exact=True).wait_for()
+    banner.get_by_text("no command goes out from here").wait_for()
+    (state,) = states(past)
+    assert state["summary"]["position"]["latitude"] == pytest.approx(values("latitude_deg", state["at"]), abs=1e-3)
+    for name in ("At a glance", "Values", "Map", "Attitude", "Inside", "State"):
+        page.get_by_role("region", name=name, exact=True).wait_for()
+    page.get_by_role("img", name=re.compile("^Phase of the dive: (descent|ascent)")).wait_for()
+    page.get_by_role("application", name=re.compile("^The glider: pitch ")).wait_for()
+    said = page.get_by_role("application", name=re.compile("^The glider")).get_attribute("aria-label")
+    pitch = float(re.search(r"pitch ([\d\u2212.]+)", said).group(1).replace("\u2212", "-"))
+    assert pitch == pytest.approx(values("pitch_deg", states(past)[0]["at"]), abs=3.0)
+    assert page.locator("main a").count() == 0, "no way out of the past but its end"
+    assert page.locator("main").get_by_role("button", name=re.compile("Abort|Send|Dive")).count() == 0
+
+
+def test_a_silence_is_told_and_jumped_over(page: Any, past: Past, screenshot: Any) -> None:
+    """Oracle: the half hour in which nothing was received."""
+    gap = [past.begin + hours * 3600.0 for hours in GAP]
+    page.goto(f"{past.address}/#/vehicle/1/replay?begin={gap[0] - 60:.0f}&end={gap[1] + 600:.0f}")
+    page.get_by_role("spinbutton", name="Speed").fill("200")
+    page.get_by_role("button", name="Start the replay").click()
+    page.get_by_text("Nothing was received from").wait_for()
+    screenshot("replay-silence")
+    page.get_by_role("combobox", name="Speed").select_option("5")
+    assert states(past)[0]["silence"]["end"] == pytest.approx(gap[1], abs=2.5)
+    page.get_by_role("button", name="Jump over it").click()
+    until(page, lambda: states(past)[0]["at"] > gap[1])
+    page.get_by_text("Nothing was received from").wait_for(state="detached")
+    page.get_by_label("Place in the replay").focus()
+    page.keyboard.press("Home")
+    page.get_by_label("Jump over silence").check()
+    page.get_by_role("combobox", name="Speed").select_option("200")
+    until(page, lambda: states(past)[0]["at"] > gap[1])
+
+
+def test_a_stretch_with_nothing_in_it_is_refused_with_what_is_around_it(page: Any, past: Past) -> None:
+    begin = past.begin + GAP[0] * 3600.0 + 300.0
+    page.goto(f"{past.address}/#/vehicle/1/replay?begin={begin:.0f}&end={begin + 300:.0f}")
+    page.get_by_role("button", name="Start the replay").click()
+    page.get_by_role("alert").get_by_text("nothing was received of vehicle 1 in this stretch of time").wait_for()
+    page.get_by_role("alert").get_by_text("the next at").wait_for()
+
+
+def test_two_tabs_have_replays_of_their_own(page: Any, past: Past) -> None:
+    begun(page, past, "1")
+    other = page.context.new_page()
+    other.goto(f"{past.address}/#/vehicle/1/replay?begin={past.begin + 7200:.0f}&end={past.begin + 10_800:.0f}")
+    other.get_by_role("button", name="Start the replay").click()
+    other.locator(".tile .value").first.wait_for()
+    until(page, lambda: len(states(past)) == 2)
+    times = [tab.get_by_label("Time of the replay").inner_text() for tab in (page, other)]
+    assert times[0] != times[1]
+    other.get_by_role("button", name="End the replay").click()
+    until(page, lambda: len(states(past)) == 1)
+    before = states(past)[0]["at"]
+    until(page, lambda: states(past)[0]["at"] > before)
+    other.close()

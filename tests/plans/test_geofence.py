@@ -1,9 +1,10 @@
-"""The geofence. Oracle: matplotlib's test of points in polygons, and areas that are seen by eye."""
+"""The geofence. Oracle: matplotlib's test of points in polygons on pyproj's Mercator map, areas seen by eye."""
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.path import Path
+from pyproj import Proj
 
 from stommel.geometry.geodesics import Place
 from stommel.plans.geofence import Geofence
@@ -16,6 +17,8 @@ BAY = [Place(0.0, 0.0), Place(10.0, 0.0), Place(10.0, 10.0), Place(0.0, 10.0), P
        Place(8.0, 4.0), Place(0.0, 4.0)]  # fmt: skip
 """A square with a slot from the south."""
 
+CHART = Proj(proj="merc", R=1.0)
+"""Longitude and latitude on Mercator's map."""
 DEGREES = st.floats(-5.0, 15.0).map(lambda value: round(value, 2) + 0.001)
 
 
@@ -27,6 +30,7 @@ def star(angles: list[float], radii: list[float]) -> list[Place]:
     ]
 
 
+@settings(deadline=None)  # on a busy machine the first example waits for its libraries
 @given(
     st.lists(st.floats(0.0, 6.28), min_size=3, max_size=12, unique_by=lambda angle: round(angle, 2)),
     st.lists(st.floats(1.0, 9.0), min_size=12, max_size=12),
@@ -37,10 +41,10 @@ def test_a_place_is_inside_where_another_library_says_so(
     angles: list[float], radii: list[float], latitude: float, longitude: float
 ) -> None:
     corners = star(angles, radii)
-    points = [(corner.longitude_deg, corner.latitude_deg) for corner in corners]
+    points = [CHART(corner.longitude_deg, corner.latitude_deg) for corner in corners]
     outline = Path([*points, points[0]], closed=True)
-    at = (longitude, latitude)
-    sure = outline.contains_point(at, radius=1e-6) == outline.contains_point(at, radius=-1e-6)
+    at = CHART(longitude, latitude)
+    sure = outline.contains_point(at, radius=1e-8) == outline.contains_point(at, radius=-1e-8)
     if sure:
         assert Geofence(corners).holds(Place(latitude, longitude)) == outline.contains_point(at)
 
@@ -60,6 +64,28 @@ def test_it_may_lie_across_the_date_line() -> None:
     assert fence.holds(Place(11.0, -179.5))
     assert not fence.holds(Place(11.0, 178.0))
     assert not fence.cuts(Place(11.0, 179.5), Place(11.0, -179.5))
+
+
+def test_its_sides_are_those_that_the_vehicle_steers_also_far_north() -> None:
+    """Oracle: from 70 to 80 deg a line of one bearing is at 75.84 deg half-way in longitude."""
+    _, north = CHART(0.0, 80.0)
+    _, south = CHART(0.0, 70.0)
+    _, middle = CHART(0.0, (north + south) / 2.0, inverse=True)
+    fence = Geofence([Place(70.0, 10.0), Place(80.0, 30.0), Place(70.0, 30.0)])
+    assert fence.holds(Place(middle - 0.01, 20.0))
+    assert not fence.holds(Place(middle + 0.01, 20.0))
+    assert abs(middle - 75.0) > 0.4, "on the map of equal steps it would be elsewhere"
+
+
+def test_one_that_goes_around_the_earth_is_told() -> None:
+    wide = [place(10.0, -100.0), place(20.0, 20.0), place(10.0, 100.0)]
+    assert fenced(geofence=wide) == [("geofence", "less than 180 deg of longitude wide")]
+
+
+def test_the_sides_that_cross_are_named_by_their_corners() -> None:
+    corners = [place(*SQUARE[k]) for k in (0, 2, 1, 3)]
+    (found,) = way_problems(plan_from(plan_with(geofence=corners)))
+    assert found.value == "corner 1 to 2, corner 3 to 4"
 
 
 def test_one_that_crosses_itself_is_told() -> None:

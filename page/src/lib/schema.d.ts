@@ -168,6 +168,7 @@ export interface components {
             t: number | null;
             dives: components["schemas"]["Compared"][];
             reason: string | null;
+            left_geofence?: components["schemas"]["TrackPoint"] | null;
         };
         /** @description Parameters of one component. */
         ComponentParameters: {
@@ -677,7 +678,7 @@ export interface components {
             notes: string[];
             writes: components["schemas"]["ParameterWrite"][];
         };
-        /** @description A value that somebody sets; it waits for the vehicle, but not over a restart of the station. */
+        /** @description A value that somebody sets; it waits for the vehicle, and after a restart the vehicle is asked what it holds. */
         ParameterWrite: {
             ticket: number;
             component: number;
@@ -798,6 +799,7 @@ export interface components {
                 [key: string]: number[];
             };
             path: components["schemas"]["PlannedPath"];
+            left_geofence?: components["schemas"]["TrackPoint"] | null;
             warnings: string[];
         };
         /** @description One thing wrong with a plan. */
@@ -841,6 +843,7 @@ export interface components {
             speed?: number | null;
             paused?: boolean | null;
             at?: number | null;
+            skip_silence?: boolean | null;
         };
         /** @description How far a replay has come; times are those of the vehicle [s since 1970]. */
         ReplayState: {
@@ -854,6 +857,9 @@ export interface components {
             paused: boolean;
             ended: boolean;
             reason: string;
+            skip_silence: boolean;
+            silence: components["schemas"]["Silence"] | null;
+            summary: components["schemas"]["VehicleSummary"];
         };
         /**
          * @description From the least to the most.
@@ -944,6 +950,12 @@ export interface components {
             ] | null;
             bladder_m: number[] | null;
             assumed: string[];
+        };
+        /** @description A stretch in which nothing was received. */
+        Silence: {
+            begin: number;
+            end: number;
+            is_last: boolean;
         };
         /** @description Of the last dive, over ground. */
         SpeedMadeGood: {
@@ -1688,6 +1700,7 @@ export type SectionColumn = components['schemas']['SectionColumn'];
 export type Sentence = components['schemas']['Sentence'];
 export type SeriesAnswer = components['schemas']['SeriesAnswer'];
 export type Shape = components['schemas']['Shape'];
+export type Silence = components['schemas']['Silence'];
 export type SpeedMadeGood = components['schemas']['SpeedMadeGood'];
 export type StartedJob = components['schemas']['StartedJob'];
 export type StateMachine = components['schemas']['StateMachine'];

@@ -3,7 +3,7 @@
 import { api } from './api';
 import { clock } from './clock.svelte';
 import { live } from './live.svelte';
-import type { SeriesAnswer } from './types';
+import type { SeriesAnswer, VehicleKey } from './types';
 
 export interface Points {
   t: number[];
@@ -18,9 +18,12 @@ export class Trend {
   readonly span: number;
   private readonly vehicle: number;
   private readonly channel: string;
+  /** Of the live socket: the vehicle, or a replay of it. */
+  private readonly key: VehicleKey;
 
-  constructor(vehicle: number, channel: string, span_s: number) {
+  constructor(vehicle: number, channel: string, span_s: number, key: VehicleKey = vehicle) {
     this.vehicle = vehicle;
+    this.key = key;
     this.channel = channel;
     this.span = span_s;
   }
@@ -29,7 +32,7 @@ export class Trend {
   follow(): () => void {
     const timer = setInterval(() => void this.load(), RELOAD_MS);
     const opened = live.onOpen(() => void this.load());
-    const ended = live.subscribe(this.vehicle, [this.channel], {
+    const ended = live.subscribe(this.key, [this.channel], {
       values: (values) => {
         const told = values[this.channel];
         if (told) this.add(told[0], told[1]);
@@ -50,8 +53,9 @@ export class Trend {
     this.points = { t: [...this.points.t.slice(first), t], value: [...this.points.value.slice(first), value] };
   }
 
-  private async load(): Promise<void> {
-    const end = clock.now(this.vehicle);
+  /** Asks the archive again, for instance since a replay has jumped. */
+  async load(): Promise<void> {
+    const end = clock.now(this.key);
     if (end === undefined) return;
     const query = { channels: this.channel, begin: end - this.span, end, points: POINTS };
     const answer = await api.get<SeriesAnswer>(`/vehicles/${this.vehicle}/series`, query).catch(() => undefined);

@@ -114,8 +114,19 @@ dives = Table(
     Column("dive", BigInteger, primary_key=True, autoincrement=False),
     Column("t_begin_us", BigInteger, primary_key=True, autoincrement=False),
     Column("t_end_us", BigInteger),
-    *value_columns("latitude_begin", "longitude_begin", "latitude_end", "longitude_end", "greatest_depth_m"),
-    *value_columns("current_north_m_s", "current_east_m_s", "energy_j"),
+    *(
+        Column(name, Double)
+        for name in (
+            "latitude_begin",
+            "longitude_begin",
+            "latitude_end",
+            "longitude_end",
+            "greatest_depth_m",
+            "current_north_m_s",
+            "current_east_m_s",
+            "energy_j",
+        )
+    ),
     Column("log_id", NUMBER),  # of the log that told of it; none: the radio alone
 )
 
@@ -153,10 +164,7 @@ profiles = Table(
     Column("direction", Integer, nullable=False),  # 1 down, -1 up
     Column("samples", BigInteger, nullable=False),
     Column("dive", BigInteger),
-    Column("latitude", Double),
-    Column("longitude", Double),
-    Column("least_depth_m", Double),
-    Column("greatest_depth_m", Double),
+    *(Column(name, Double) for name in ("latitude", "longitude", "least_depth_m", "greatest_depth_m")),
     sqlite_with_rowid=False,
 )
 """What was found in the CTD samples, so that it is not sought again after a restart; it may be emptied at any time."""

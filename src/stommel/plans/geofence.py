@@ -1,16 +1,20 @@
 """An area on the map that a plan may not leave.
 
-Its sides are straight on the map of equal steps in latitude and longitude, as the page draws them; longitudes are
-counted from its first corner, so that it may lie across the date line. It contains no pole.
+Its sides are straight on Mercator's map, as the page draws them and as the vehicle steers between waypoints; longitudes
+are counted from its first corner, so that it may lie across the date line. It contains no pole.
 """
 
+import math
 from collections.abc import Sequence
 from itertools import combinations
 
 from stommel.geometry.geodesics import Place
 
 Point = tuple[float, float]
-"""Longitude from the first corner, and latitude [deg]."""
+"""Longitude from the first corner [deg], and how far north on Mercator's map [deg of longitude at the equator]."""
+WIDEST_DEG = 180.0
+"""Of longitude: in a wider one, which way a side goes around the Earth would not be certain."""
+_FARTHEST_NORTH_DEG = 89.9
 
 
 class Geofence:
@@ -44,11 +48,18 @@ class Geofence:
                 return i, j
         return None
 
+    def is_too_wide(self) -> bool:
+        """Whether its corners lie too far apart in longitude."""
+        longitudes = [x for x, _ in self._corners]
+        return max(longitudes) - min(longitudes) >= WIDEST_DEG
+
     def _sides(self) -> list[tuple[Point, Point]]:
         return list(zip(self._corners, self._corners[1:] + self._corners[:1], strict=True))
 
     def _point(self, place: Place) -> Point:
-        return (place.longitude_deg - self._middle + 180.0) % 360.0 - 180.0, place.latitude_deg
+        latitude = max(-_FARTHEST_NORTH_DEG, min(_FARTHEST_NORTH_DEG, place.latitude_deg))
+        north = math.degrees(math.asinh(math.tan(math.radians(latitude))))
+        return (place.longitude_deg - self._middle + 180.0) % 360.0 - 180.0, north
 
 
 def _cross(one: tuple[Point, Point], other: tuple[Point, Point]) -> bool:

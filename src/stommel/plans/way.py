@@ -1,11 +1,12 @@
 """The way of a plan on the map: its legs, and whether they stay within the geofence."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
 from stommel.geometry.geodesics import Place, leg
-from stommel.plans.geofence import Geofence
+from stommel.mission.plan import Position
+from stommel.plans.geofence import WIDEST_DEG, Geofence
 from stommel.plans.plan import StationPlan
 from stommel.plans.problems import PlanProblem
 
@@ -40,6 +41,19 @@ def legs_of(plan: StationPlan) -> list[PlannedLeg]:
     return [PlannedLeg(key, before, here) for (_, before), (key, here) in pairwise(named)]
 
 
+def fence_of(corners: Sequence[Position]) -> Geofence:
+    """The geofence of a plan, which has at least three corners."""
+    return Geofence([Place(corner.latitude_deg, corner.longitude_deg) for corner in corners])
+
+
+def first_outside(corners: Sequence[Position], track: Iterable[Mapping[str, float]]) -> Mapping[str, float] | None:
+    """The first point of a track (`t`, `lat`, `lon`) that is not within a geofence; None where there is none."""
+    if not corners:
+        return None
+    fence = fence_of(corners)
+    return next((point for point in track if not fence.holds(Place(point["lat"], point["lon"]))), None)
+
+
 def way_problems(plan: StationPlan) -> list[PlanProblem]:
     """A way without waypoints, places and legs that leave the geofence, and a geofence that crosses itself."""
     if not plan.waypoints:
@@ -47,14 +61,22 @@ def way_problems(plan: StationPlan) -> list[PlanProblem]:
         return [PlanProblem("waypoints", "none", reason, "at least 1")]
     if not plan.geofence:
         return []
-    corners = [Place(corner.latitude_deg, corner.longitude_deg) for corner in plan.geofence]
-    fence = Geofence(corners)
+    fence = fence_of(plan.geofence)
+    if fence.is_too_wide():
+        allowed = f"less than {WIDEST_DEG:g} deg of longitude wide"
+        reason = f"geofence: its corners lie too far apart to say on which side of the Earth it is: must be {allowed}"
+        return [PlanProblem("geofence", "", reason, allowed)]
     crossed = fence.crosses_itself()
     if crossed is not None:
-        sides = f"sides {crossed[0] + 1} and {crossed[1] + 1}"
-        reason = f"geofence: its {sides} cross each other: must be an area whose sides do not cross"
-        return [PlanProblem("geofence", sides, reason, "an area whose sides do not cross")]
+        one, other = (_side(number, len(plan.geofence)) for number in crossed)
+        reason = f"geofence: the side from {one} crosses that from {other}: must be an area whose sides do not cross"
+        return [PlanProblem("geofence", f"{one}, {other}", reason, "an area whose sides do not cross")]
     return list(_outside(plan, fence))
+
+
+def _side(number: int, count: int) -> str:
+    """A side of a geofence in words, by its corners counted from 1."""
+    return f"corner {number + 1} to {(number + 1) % count + 1}"
 
 
 def _outside(plan: StationPlan, fence: Geofence) -> Iterator[PlanProblem]:

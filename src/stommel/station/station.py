@@ -71,7 +71,7 @@ class Station:
             afterwards = Afterwards()
             self._held.callback(afterwards.stop)
             self.people = People(self.archive, told=self._holder_changed, later=afterwards)
-            self.replays = Replays(self.archive, self.hub)
+            self.replays = Replays(self.archive, self.hub, self.vehicles)
             self._held.callback(self.replays.stop)
             self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
             self.commands = Commands(self.archive, self.hub, self.vehicles)

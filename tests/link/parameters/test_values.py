@@ -6,7 +6,7 @@ from math import inf, nan
 from types import SimpleNamespace
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from stommel.link.endings import Ending
@@ -176,6 +176,7 @@ def test_what_cannot_be_said_is_refused(described: Description, words: str) -> N
         check_description(described, "motion node")
 
 
+@settings(deadline=None)  # the machine may be busy
 @given(st.data())
 def test_no_message_ends_the_server(data: st.DataObject) -> None:
     """Any payload of any message that it takes; whatever it then says can be packed."""

@@ -102,6 +102,9 @@ def test_what_a_pilot_should_know_is_told() -> None:
     gate = [place(28.65, 126.05), place(28.75, 126.05), place(28.75, 126.12), place(28.65, 126.12)]
     carried = fly(geofence=gate, waypoints=[place(28.74, 126.08)], water={"current": "given", "east_m_s": 0.6})
     assert any("leaves the geofence after" in words for words in carried["warnings"])
+    left = carried["left_geofence"]
+    assert left["lon"] > 126.12, "carried to the east"
+    assert all(point["lon"] <= 126.12 for point in carried["track"] if point["t"] < left["t"])
     stopped = fly(abort={"battery_share": 0.99})
     assert any("battery low" in words for words in stopped["warnings"])
     assert fly(waypoints=[place(28.69, 126.11)], water={"current": "still"})["warnings"] == []

@@ -12,7 +12,7 @@ from stommel.plans.preview.ordering import orders_for
 from stommel.plans.problems import plan_from
 from stommel.station.station import Station
 from stommel.station.vehicles.mission_rows import ABOARD, MissionRow, MissionRows
-from tests.plans.plans import PLAN, plan_with
+from tests.plans.plans import PLAN, place, plan_with
 
 
 def ended(client: httpx.Client, job: str) -> dict[str, Any]:
@@ -159,6 +159,33 @@ def test_planned_and_flown_stand_side_by_side(client: httpx.Client, station: Sta
     assert row["difference"]["distance_m"] == pytest.approx(0.0, abs=1e-6)
     assert row["difference"]["energy_j"] is None, "the vehicle has not told it"
     assert found["dives"][1]["flown"] is None
+
+
+def test_the_flown_track_is_held_against_the_fence_of_the_plan(client: httpx.Client, station: Station) -> None:
+    """Oracle: a track straight north that leaves a fence at 28.80 deg; what came before the mission does not count."""
+    fence = [place(28.6, 126.0), place(28.8, 126.0), place(28.8, 126.3), place(28.6, 126.3)]
+    t = take_aboard(station, plan_with(geofence=fence), None)
+    outside = [("latitude_deg", t - 600.0, 40.0), ("longitude_deg", t - 600.0, 126.1)]
+    inside = [("latitude_deg", t + 60.0, 28.7), ("longitude_deg", t + 60.0, 126.1)]
+    station.archive.store(1, Batch(samples=[*outside, *inside]))
+    answer = client.get("/api/vehicles/1/mission/comparison").raise_for_status().json()
+    assert answer["left_geofence"] is None
+    track = [
+        sample
+        for k in range(1, 30)
+        for sample in (("latitude_deg", t + 60.0 + k, 28.7 + 0.013 * k), ("longitude_deg", t + 60.0 + k, 126.1))
+    ]
+    station.archive.store(1, Batch(samples=track))
+    left = client.get("/api/vehicles/1/mission/comparison").raise_for_status().json()["left_geofence"]
+    assert left["lat"] == pytest.approx(28.804), "the eighth of the steps of 0.013 deg"
+    assert left["t"] == t + 68.0
+    then = client.get("/api/vehicles/1/mission", params={"at": t + 100.0}).raise_for_status().json()
+    assert [(corner["latitude"], corner["longitude"]) for corner in then["geofence"]] == [
+        (corner["latitude_deg"], corner["longitude_deg"]) for corner in fence
+    ]
+    before = client.get("/api/vehicles/1/mission", params={"at": t - 100.0}).raise_for_status().json()
+    assert (before["name"], before["waypoints"]) == (None, [])
+    assert before["missing"] == "it is not known which mission the vehicle held then"
 
 
 def test_what_was_kept_in_place_of_a_preview_breaks_nothing(client: httpx.Client, station: Station) -> None:

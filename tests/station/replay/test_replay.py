@@ -2,8 +2,6 @@
 
 import json
 import time
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -19,23 +17,11 @@ from stommel.station.replay.reading import MOST_SAMPLES, channel_keys, samples_b
 from stommel.station.station import Station
 from stommel.station.web.app import create_app
 from tests.station.client import Client
-from tests.station.stations import station as running
 from tests.support.station_served import served
 from tests.support.waiting import WITHIN, until
 
 T0 = 1_700_000_000.0
 DEPTHS = [("depth_m", T0 + n, float(n % 200)) for n in range(20_000)]
-
-
-@pytest.fixture
-def station(tmp_path: Path) -> Iterator[Station]:
-    with running(tmp_path, "tcp:127.0.0.1:9", start=False) as made:
-        yield made
-
-
-@pytest.fixture
-def client(station: Station) -> Client:
-    return Client(station)
 
 
 # the clock of a replay
@@ -163,13 +149,15 @@ def test_a_replay_that_cannot_be_is_refused(client: Client, body: dict[str, Any]
     assert client.refused("POST", "/replays", status, json=body)["key"] == key
 
 
-def test_a_jump_out_of_the_replay_is_refused(client: Client) -> None:
+def test_a_jump_out_of_the_replay_is_refused(station: Station, client: Client) -> None:
+    station.archive.store(1, Batch(samples=DEPTHS[:101]))
     made = client.post("/replays", {"vehicle": 1, "begin": T0, "end": T0 + 100.0})
     told = client.refused("PUT", f"/replays/{made['replay']}", 422, json={"at": T0 + 101.0})
     assert told["key"] == "at"
 
 
 def test_there_is_an_end_to_replays(station: Station, client: Client) -> None:
+    station.archive.store(1, Batch(samples=DEPTHS[:101]))
     body = {"vehicle": 1, "begin": T0, "end": T0 + 100.0}
     for _ in range(10):
         client.post("/replays", body)
@@ -180,6 +168,7 @@ def test_there_is_an_end_to_replays(station: Station, client: Client) -> None:
 
 
 def test_a_replay_to_which_nobody_listens_ends(station: Station, client: Client) -> None:
+    station.archive.store(1, Batch(samples=DEPTHS[:101]))
     replay = station.replays.begin("local", 1, T0, T0 + 100.0, 1.0)
     reader = station.hub.subscribe("a", replay.name, [])
     replay._alone = 0.3

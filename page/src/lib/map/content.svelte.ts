@@ -1,8 +1,9 @@
 // What the station knows of a vehicle for a map: track, mission aboard, currents of its dives, chart layers.
 
 import { api } from '../api';
+import { clock } from '../clock.svelte';
 import { live } from '../live.svelte';
-import type { DiveRow, LayerRow, MissionAboard, Track } from '../types';
+import type { DiveRow, LayerRow, MissionAboard, Track, VehicleKey } from '../types';
 import type { MapArrow, MapLayer, MapWaypoint, Place } from './types';
 
 const NEWEST_ARROWS = 60;
@@ -15,29 +16,43 @@ export class MapContent {
   fence = $state.raw<Place[]>([]);
   arrows = $state.raw<MapArrow[]>([]);
   readonly vehicle: number;
+  /** Of the live socket: the vehicle, or a replay of it, of which nothing is shown that had not happened. */
+  private readonly key: VehicleKey;
+  private loads = 0;
 
-  constructor(vehicle: number) {
+  constructor(vehicle: number, key: VehicleKey = vehicle) {
     this.vehicle = vehicle;
+    this.key = key;
   }
 
   /** Fetches everything and keeps it up to date until the function that comes back is called. */
   follow(): () => void {
-    const reload = (): void => void Promise.all([this.loadTrack(), this.loadMission(), this.loadDives()]);
     const mine = (load: () => Promise<void>) => (event: { vehicle: unknown }) => {
-      if (event.vehicle === this.vehicle) void load();
+      if (event.vehicle === this.key) void load();
     };
     const ends = [
-      live.onOpen(reload),
+      live.onOpen(() => void this.load()),
       live.on('mission', mine(() => this.loadMission())),
       live.on('dive', mine(() => this.loadDives())),
       this.append(),
     ];
-    reload();
+    void this.load();
     return () => ends.forEach((end) => end());
   }
 
+  /** Fetches everything again, for instance since a replay has jumped. */
+  async load(): Promise<void> {
+    this.loads += 1;
+    await Promise.all([this.loadTrack(), this.loadMission(), this.loadDives()]);
+  }
+
+  /** The present of a replay; undefined for the vehicle as it is. */
+  private get until(): number | undefined {
+    return this.key === this.vehicle ? undefined : clock.now(this.key);
+  }
+
   private append(): () => void {
-    return live.subscribe(this.vehicle, ['latitude_deg', 'longitude_deg'], {
+    return live.subscribe(this.key, ['latitude_deg', 'longitude_deg'], {
       values: (values) => {
         const [latitude, longitude] = [values['latitude_deg']?.[1], values['longitude_deg']?.[1]];
         if (latitude === undefined || longitude === undefined) return;
@@ -49,16 +64,20 @@ export class MapContent {
   }
 
   private async loadTrack(): Promise<void> {
-    const track = await api.get<Track>(`/vehicles/${this.vehicle}/track`, { points: 1500 }).catch(() => undefined);
-    if (!track) return;
+    const [end, load] = [this.until, this.loads];
+    const query = { points: 1500, end };
+    const track = await api.get<Track>(`/vehicles/${this.vehicle}/track`, query).catch(() => undefined);
+    if (!track || load !== this.loads) return;
     this.track = track.latitude
       .map((latitude, index) => ({ latitude, longitude: track.longitude[index] ?? NaN }))
       .filter((place) => Number.isFinite(place.latitude) && Number.isFinite(place.longitude));
   }
 
   private async loadMission(): Promise<void> {
-    const mission = await api.get<MissionAboard>(`/vehicles/${this.vehicle}/mission`).catch(() => undefined);
-    if (!mission) return;
+    const load = this.loads;
+    const query = { at: this.until };
+    const mission = await api.get<MissionAboard>(`/vehicles/${this.vehicle}/mission`, query).catch(() => undefined);
+    if (!mission || load !== this.loads) return;
     this.waypoints = together(mission.waypoints);
     const repeats = this.waypoints.some((one) => (one.numbers?.length ?? 0) > 1);
     this.route = repeats && this.waypoints[0] ? [...this.waypoints, this.waypoints[0]] : this.waypoints;
@@ -66,9 +85,10 @@ export class MapContent {
   }
 
   private async loadDives(): Promise<void> {
+    const [end, load] = [this.until ?? Infinity, this.loads];
     const rows = await api.get<DiveRow[]>(`/vehicles/${this.vehicle}/dives`).catch(() => undefined);
-    if (!Array.isArray(rows)) return;
-    const newest = [...rows].sort((a, b) => a.t_begin - b.t_begin).slice(-NEWEST_ARROWS);
+    if (!Array.isArray(rows) || load !== this.loads) return;
+    const newest = rows.filter((row) => (row.t_end ?? row.t_begin) <= end).sort((a, b) => a.t_begin - b.t_begin).slice(-NEWEST_ARROWS);
     this.arrows = newest.flatMap((row, index) => arrow(row, index === newest.length - 1));
   }
 }

@@ -3,7 +3,7 @@
 import { geoPath, type GeoProjection } from 'd3-geo';
 import { token } from '../theme.svelte';
 import { landWithin, type LandPart } from './land';
-import type { MapArrow, MapLayer, MapTrack, Place } from './types';
+import type { MapArrow, MapLayer, MapMark, MapTrack, Place } from './types';
 import { graticuleLabel, graticuleStep, pixelsPerMetre, placeAt, projection, wrapped, type MapView, type Size } from './view';
 
 export interface Scene {
@@ -12,6 +12,9 @@ export interface Scene {
   images: ReadonlyMap<string, HTMLImageElement>;
   tracks: readonly MapTrack[];
   fence: readonly Place[];
+  /** Whether the fence is still being drawn: its last side is not there yet. */
+  fenceOpen: boolean;
+  marks: readonly MapMark[];
   arrows: readonly MapArrow[];
   circles: readonly (Place & { radius_m: number; kind: 'waypoint' | 'uncertainty' })[];
 }
@@ -29,11 +32,26 @@ export function draw(context: Context, view: MapView, size: Size, scene: Scene):
   context.lineJoin = 'round';
   drawLand(context, project, view, size, scene.land);
   for (const layer of scene.layers) drawLayer(context, project, layer, scene.images);
-  drawGraticule(context, project, view, size);
-  drawFence(context, project, scene.fence);
+  const labels = drawGraticule(context, project, view, size);
+  drawFence(context, project, scene.fence, scene.fenceOpen);
   for (const circle of scene.circles) drawCircle(context, project, view, circle);
   for (const track of scene.tracks) drawTrack(context, project, track);
   drawArrows(context, project, scene.arrows);
+  for (const mark of scene.marks) drawMark(context, project, mark);
+  context.fillStyle = token('ink-2');
+  context.font = `11px ${getComputedStyle(document.body).fontFamily}`;
+  context.textAlign = 'left';
+  for (const label of labels) haloed(context, ...label);
+}
+
+type Label = [words: string, x: number, y: number];
+
+/** Words that can be read on whatever lies below. */
+function haloed(context: Context, words: string, x: number, y: number): void {
+  context.lineWidth = 3;
+  context.strokeStyle = token('sea');
+  context.strokeText(words, x, y);
+  context.fillText(words, x, y);
 }
 
 function bounds(view: MapView, size: Size): [number, number, number, number] {
@@ -79,14 +97,11 @@ function drawImage(context: Context, project: GeoProjection, image: HTMLImageEle
   }
 }
 
-function drawGraticule(context: Context, project: GeoProjection, view: MapView, size: Size): void {
+function drawGraticule(context: Context, project: GeoProjection, view: MapView, size: Size): Label[] {
   const [west, east, south, north] = bounds(view, size);
-  const step = graticuleStep(view);
+  const [step, rowStep] = [graticuleStep(view), graticuleStep(view, 130, true)];
   context.strokeStyle = token('ink');
-  context.fillStyle = token('ink-2');
-  context.font = `11px ${getComputedStyle(document.body).fontFamily}`;
   context.lineWidth = 1;
-  const label = (words: string, x: number, y: number): void => context.fillText(words, x, y);
   context.globalAlpha = 0.13;
   context.beginPath();
   const columns: [number, number][] = [];
@@ -97,28 +112,60 @@ function drawGraticule(context: Context, project: GeoProjection, view: MapView, 
     context.moveTo(x, 0);
     context.lineTo(x, size.height);
   }
-  for (let i = Math.ceil(south / step); i * step <= north; i += 1) {
-    const y = Math.round(project([view.longitude, i * step])?.[1] ?? 0) + 0.5;
-    rows.push([i * step, y]);
+  for (let i = Math.ceil(south / rowStep); i * rowStep <= north; i += 1) {
+    const y = Math.round(project([view.longitude, i * rowStep])?.[1] ?? 0) + 0.5;
+    rows.push([i * rowStep, y]);
     context.moveTo(0, y);
     context.lineTo(size.width, y);
   }
   context.stroke();
   context.globalAlpha = 1;
-  context.textAlign = 'left';
-  for (const [value, x] of columns) if (x > 60) label(graticuleLabel(value, step, ['E', 'W']), x + 3, 12);
-  for (const [value, y] of rows) if (y > 30) label(graticuleLabel(value, step, ['N', 'S']), 4, y - 3);
+  return [
+    ...columns.filter(([, x]) => x > 60).map(([value, x]): Label => [graticuleLabel(value, step, ['E', 'W']), x + 3, 12]),
+    ...rows.filter(([, y]) => y > 30).map(([value, y]): Label => [graticuleLabel(value, rowStep, ['N', 'S']), 4, y - 3]),
+  ];
 }
 
-function drawFence(context: Context, project: GeoProjection, fence: readonly Place[]): void {
-  if (fence.length < 3) return;
-  context.beginPath();
-  line(context, project, [...fence, fence[0] as Place]);
+function drawFence(context: Context, project: GeoProjection, fence: readonly Place[], open: boolean): void {
+  const [first, last] = [fence[0], fence.at(-1)];
+  if (!first || !last || fence.length < 2) return;
+  const isArea = fence.length > 2;
   context.strokeStyle = token('warning');
-  context.lineWidth = 1.5;
-  context.setLineDash([2, 4]);
+  if (isArea) {
+    context.beginPath();
+    line(context, project, [...fence, first]);
+    context.fillStyle = token('warning');
+    context.globalAlpha = 0.04;
+    context.fill();
+    context.globalAlpha = 1;
+  }
+  context.beginPath();
+  line(context, project, open || !isArea ? fence : [...fence, first]);
+  context.lineWidth = 1.75;
+  context.setLineDash(open ? [] : [7, 3, 1.5, 3]);
   context.stroke();
+  if (open && isArea) {
+    context.beginPath();
+    line(context, project, [last, first]);
+    context.lineWidth = 1;
+    context.setLineDash([2, 5]);
+    context.stroke();
+  }
   context.setLineDash([]);
+}
+
+/** A place that is only shown: a small disc with its label beside it. */
+function drawMark(context: Context, project: GeoProjection, mark: MapMark): void {
+  const at = project([mark.longitude, mark.latitude]);
+  if (!at) return;
+  const colour = token(mark.kind === 'warning' ? 'warning' : 'ink-2');
+  context.beginPath();
+  context.arc(at[0], at[1], mark.kind === 'warning' ? 5 : 3.5, 0, 2 * Math.PI);
+  context.fillStyle = colour;
+  context.fill();
+  context.font = `600 11px ${getComputedStyle(document.body).fontFamily}`;
+  context.textAlign = 'left';
+  haloed(context, mark.label, at[0] + 8, at[1] + 4);
 }
 
 function line(context: Context, project: GeoProjection, places: readonly Place[]): void {
@@ -147,13 +194,22 @@ function drawCircle(context: Context, project: GeoProjection, view: MapView, cir
   context.globalAlpha = 1;
 }
 
+/** Colour, width and dashes of each kind of track. */
+const TRACKS: Record<MapTrack['kind'], [string, number, number[]]> = {
+  flown: ['track', 2, []],
+  planned: ['ink-3', 1.25, [6, 4]],
+  predicted: ['series-2', 2, [2, 3]],
+  aboard: ['series-3', 1.5, [10, 4]],
+};
+
 function drawTrack(context: Context, project: GeoProjection, track: MapTrack): void {
   if (track.places.length < 2) return;
   context.beginPath();
   line(context, project, track.places);
-  context.strokeStyle = token(track.kind === 'flown' ? 'track' : track.kind === 'planned' ? 'ink-3' : 'series-2');
-  context.lineWidth = track.kind === 'planned' ? 1.25 : 2;
-  context.setLineDash(track.kind === 'planned' ? [6, 4] : track.kind === 'predicted' ? [2, 3] : []);
+  const [colour, width, dash] = TRACKS[track.kind];
+  context.strokeStyle = token(colour);
+  context.lineWidth = width;
+  context.setLineDash(dash);
   context.stroke();
   context.setLineDash([]);
 }

@@ -17,7 +17,7 @@ export interface MapVehicle extends Place {
 export interface MapTrack {
   id: string;
   places: readonly Place[];
-  kind: 'flown' | 'planned' | 'predicted';
+  kind: 'flown' | 'planned' | 'predicted' | 'aboard';
   words?: string;
 }
 
@@ -28,6 +28,8 @@ export interface MapWaypoint extends Place {
   numbers?: readonly number[];
   /** The one that is aimed at now. */
   active?: boolean;
+  /** Something is wrong with it. */
+  wrong?: boolean;
 }
 
 export interface MapArrow extends Place {
@@ -48,8 +50,20 @@ export interface MapLayer {
   bounds?: [number, number, number, number];
 }
 
+/** A place that is only shown, such as where a track leaves the fence. */
+export interface MapMark extends Place {
+  label: string;
+  kind: 'waypoint' | 'warning';
+}
+
 /** Hooks of whoever lets people edit the waypoints. Without a hook that deed is not possible. */
 export interface MapEditing {
+  /** What a place is called for people who do not see it; "Waypoint" if left out. */
+  what?: string;
+  /** Whether the last place leads back to the first. */
+  closed?: boolean;
+  /** The first place was pressed, which closes the line. */
+  close?: () => void;
   add?: (place: Place) => void;
   /** Between waypoint `index` and the next. */
   insert?: (index: number, place: Place) => void;

@@ -1,6 +1,6 @@
 // Oracles: geometry of the Mercator projection, worked out by hand, and what must stay where it is.
 import { describe, expect, it } from 'vitest';
-import { fitted, graticuleLabel, graticuleStep, moved, pixelsPerMetre, placeAt, projection, scaleBar, wrapped, zoomed } from './view';
+import { around, fitted, graticuleLabel, graticuleStep, moved, pixelsPerMetre, placeAt, projection, scaleBar, wrapped, zoomed } from './view';
 import type { MapView } from './view';
 
 const SIZE = { width: 800, height: 500 };
@@ -61,5 +61,20 @@ describe('the view of a map', () => {
     expect(graticuleLabel(-5, 1, ['E', 'W'])).toBe('5°W');
     expect(graticuleLabel(30 + 1.5 / 60, 1 / 120, ['N', 'S'])).toBe('30°01.5′N');
     expect(graticuleStep({ ...VIEW, scale: 100 })).toBeGreaterThan(20);
+    expect(graticuleLabel(-180, 1 / 2, ['E', 'W'])).toBe('180°00′');
+  });
+
+  it('has more parallels where Mercator stretches them', () => {
+    const north = { ...VIEW, latitude: 80 };
+    expect(graticuleStep(north, 130, true)).toBeLessThan(graticuleStep(north) / 3);
+  });
+
+  it('shows circles whole, also across the date line', () => {
+    const places = around({ latitude: 60, longitude: 179.999 }, 1000);
+    const [one, other] = places;
+    if (!one || !other) throw new Error('no places');
+    expect((other.latitude - one.latitude) * 111195).toBeCloseTo(2000, -1);
+    expect(wrapped(other.longitude - one.longitude) * 111195 * 0.5).toBeCloseTo(2000, -1);
+    expect(other.longitude).toBeLessThan(0);
   });
 });

@@ -82,6 +82,16 @@ export function fitted(places: readonly Place[], size: Size, least_m = 4000, pad
   return kept({ latitude, longitude: first.longitude + (west + right) / 2 / RADIANS, scale });
 }
 
+/** Places as far from one as a radius, so that a map that shows them shows its circle. */
+export function around(place: Place, radius_m: number): Place[] {
+  const north = radius_m / EARTH_M / RADIANS;
+  const east = north / Math.max(0.05, Math.cos(place.latitude * RADIANS));
+  return [
+    { latitude: place.latitude - north, longitude: wrapped(place.longitude - east) },
+    { latitude: place.latitude + north, longitude: wrapped(place.longitude + east) },
+  ];
+}
+
 export function pixelsPerMetre(view: MapView, latitude = view.latitude): number {
   return view.scale / EARTH_M / Math.cos(latitude * RADIANS);
 }
@@ -97,15 +107,16 @@ export function scaleBar(view: MapView, most = 120): { metres: number; pixels: n
 
 const STEPS = [30, 20, 10, 5, 2, 1, 1 / 2, 1 / 3, 1 / 6, 1 / 12, 1 / 30, 1 / 60, 1 / 120, 1 / 300, 1 / 600, 1 / 1200, 1 / 6000];
 
-/** Degrees between lines of the graticule, so that they stand about `apart` pixels from each other. */
-export function graticuleStep(view: MapView, apart = 130): number {
-  const degrees = apart / (view.scale * RADIANS);
+/** Degrees between meridians of the graticule (or, stretched, parallels), about `apart` pixels from each other. */
+export function graticuleStep(view: MapView, apart = 130, stretched = false): number {
+  const degrees = (apart / (view.scale * RADIANS)) * (stretched ? Math.cos(view.latitude * RADIANS) : 1);
   return STEPS.find((step) => step <= degrees) ?? 1 / 6000;
 }
 
 /** A value on the graticule in degrees and minutes, as short as its step allows. */
 export function graticuleLabel(value: number, step: number, letters: [string, string]): string {
-  const letter = Math.abs(value) < 1e-9 ? '' : value < 0 ? letters[1] : letters[0];
+  const isNeither = Math.abs(value) < 1e-9 || Math.abs(Math.abs(value) - 180) < 1e-9;
+  const letter = isNeither ? '' : value < 0 ? letters[1] : letters[0];
   const digits = step >= 1 / 60 - 1e-9 ? 0 : step >= 1 / 600 - 1e-9 ? 1 : 2;
   const unit = 60 * 10 ** digits;
   const whole = Math.round(Math.abs(value) * unit);

@@ -25,6 +25,7 @@ interface MissionAboard {
   /** Why something is not known, or what the last request came to. */
   missing: string | null;
   waypoints: (Place & { radius_m: number })[];
+  geofence: Place[];
   upload: (MissionRow & { progress: { done: number; of: number; seconds_left: number | null } | null }) | null;
 }
 

@@ -2,8 +2,9 @@
 
 import { api, sentence } from '../../lib/api';
 import { draft, isRecord } from '../../lib/drafts';
-import { numberOf, problemOf, type PlanField, type PlanSection, withValue } from './fields';
-import { isPlan, type Plan, type PlanProblem } from './plan';
+import { numberOf, problemOf, type PlanField, type PlanSection, valueAt, withValue } from './fields';
+import { inserted, isPlan, MOST_PLACES, type PlaceList, type Plan, type PlanPlace, type PlanProblem, without } from './plan';
+import { renumbered, withoutList } from './texts';
 import { Undo } from './undo';
 
 interface Kept {
@@ -66,18 +67,18 @@ export class Desk {
   }
 
   /** Everything that is wrong, as typed here and as the station says. */
-  get problems(): PlanProblem[] {
+  readonly problems = $derived.by<PlanProblem[]>(() => {
     const typed = this.sections
       .flatMap((section) => section.fields)
       .map((field) => ({ field, text: this.texts[field.key] }))
       .filter((each): each is { field: PlanField; text: string } => each.text !== undefined)
       .map(({ field, text }) => ({ key: field.key, value: text, reason: problemOf(field, text), allowed: '' }));
     const places = Object.entries(this.texts)
-      .filter(([key]) => /latitude|longitude/.test(key))
+      .filter(([key]) => /latitude|longitude/.test(key) && valueAt(this.plan, key) !== undefined)
       .map(([key, text]) => ({ key, value: text, reason: `"${text}" is no ${key.split('.').at(-1)?.split('_')[0]}`, allowed: '' }));
     const known = new Set([...typed, ...places].map((each) => each.key));
     return [...typed, ...places, ...this.told.filter((each) => !known.has(each.key))];
-  }
+  });
 
   /** What is wrong at a key, or below it. */
   problemAt(key: string, below = false): string {
@@ -92,7 +93,33 @@ export class Desk {
     this.put(plan);
   }
 
+  /** What comes next is another step to be undone, even if it is like the last: a pointer was lifted between. */
+  rest(): void {
+    this.run = '';
+  }
+
   private run = '';
+
+  /** One place more, before the one of that number. */
+  insert(list: PlaceList, number: number, place: PlanPlace): void {
+    if (!this.plan || (this.plan[list] ?? []).length >= MOST_PLACES) return;
+    this.texts = renumbered(this.texts, list, number, 1);
+    this.change(inserted(this.plan, number, place, list));
+  }
+
+  /** One place less. */
+  remove(list: PlaceList, number: number): void {
+    if (!this.plan) return;
+    this.texts = renumbered(this.texts, list, number + 1, -1);
+    this.change(without(this.plan, number, list));
+  }
+
+  /** Other corners in place of all that there are. */
+  enclose(corners: PlanPlace[]): void {
+    if (!this.plan) return;
+    this.texts = withoutList(this.texts, 'geofence');
+    this.change({ ...this.plan, geofence: corners });
+  }
 
   /** Opens another plan; the one before can be had back. */
   open(plan: Plan): void {
@@ -102,12 +129,14 @@ export class Desk {
 
   undo(): void {
     if (!this.plan) return;
+    this.rest();
     const before = this.undoing.undo(this.plan);
     if (before) this.put(before);
   }
 
   redo(): void {
     if (!this.plan) return;
+    this.rest();
     const after = this.undoing.redo(this.plan);
     if (after) this.put(after);
   }

@@ -23,6 +23,8 @@ export interface PreviewResult {
   dives: PreviewDive[];
   track: { t: number; lat: number; lon: number }[];
   series: Record<string, (number | null)[]>;
+  /** Where the track is outside of the geofence for the first time. */
+  left_geofence: { t: number; lat: number; lon: number } | null;
   warnings: string[];
 }
 

@@ -25,7 +25,11 @@ export interface PlanProblem {
   allowed: string;
 }
 
-export const MOST_WAYPOINTS = 200;
+/** The lists of places of a plan. */
+export type PlaceList = 'waypoints' | 'geofence';
+
+/** Waypoints, or corners of the geofence, at most. */
+export const MOST_PLACES = 200;
 
 /** Whether a value has what the page needs to show it as a plan; the rest, the station checks. */
 export function isPlan(value: unknown): value is Plan {
@@ -73,15 +77,16 @@ export function withPlace(plan: Plan, key: string, place: PlanPlace): Plan {
   return list === 'geofence' ? { ...plan, geofence: moved } : { ...plan, waypoints: moved };
 }
 
-/** The plan with one waypoint more, before the one of that number. */
-export function inserted(plan: Plan, number: number, place: PlanPlace): Plan {
-  if (plan.waypoints.length >= MOST_WAYPOINTS) return plan;
-  return { ...plan, waypoints: plan.waypoints.toSpliced(number, 0, place) };
+/** The plan with one waypoint (or corner) more, before the one of that number. */
+export function inserted(plan: Plan, number: number, place: PlanPlace, list: PlaceList = 'waypoints'): Plan {
+  const places = plan[list] ?? [];
+  if (places.length >= MOST_PLACES) return plan;
+  return { ...plan, [list]: places.toSpliced(number, 0, place) };
 }
 
-/** The plan without a waypoint. */
-export function without(plan: Plan, number: number): Plan {
-  return { ...plan, waypoints: plan.waypoints.filter((_, index) => index !== number) };
+/** The plan without a waypoint (or corner). */
+export function without(plan: Plan, number: number, list: PlaceList = 'waypoints'): Plan {
+  return { ...plan, [list]: (plan[list] ?? []).filter((_, index) => index !== number) };
 }
 
 /** The plan with a waypoint at another number of the order. */
@@ -122,9 +127,30 @@ export function differences(here: Plan, there: Plan, sections: PlanSection[]): D
   const one = { ...usual, ...flat(here) };
   const other = { ...usual, ...flat(there) };
   const keys = [...new Set([...Object.keys(one), ...Object.keys(other)])];
-  return keys
+  const told = flat(here);
+  const rows = keys
+    .filter((key) => !key.startsWith('geofence.'))
     .map((key) => ({ key, here: one[key] ?? '', there: other[key] ?? '' }))
-    .filter((row) => row.here !== row.there && !(FILLED_IN.has(row.key) && flat(here)[row.key] === undefined));
+    .filter((row) => !isSame(row.here, row.there) && !(FILLED_IN.has(row.key) && told[row.key] === undefined));
+  return [...rows, ...fences(here.geofence ?? [], there.geofence ?? [])];
+}
+
+/** Orders hold numbers in few bits: what differs by less was told as the same. */
+const ROUNDING = 2e-3;
+
+function isSame(here: string, there: string): boolean {
+  if (here === there) return true;
+  const [one, other] = [Number(here), Number(there)];
+  if (here === '' || there === '' || !Number.isFinite(one) || !Number.isFinite(other)) return false;
+  return Math.abs(one - other) <= ROUNDING * Math.max(Math.abs(one), Math.abs(other));
+}
+
+/** One row for a geofence that is another one. */
+function fences(here: PlanPlace[], there: PlanPlace[]): Difference[] {
+  if (JSON.stringify(here) === JSON.stringify(there)) return [];
+  const words = (corners: PlanPlace[]): string => (corners.length ? `${corners.length} corners` : '');
+  const isLike = here.length === there.length;
+  return [{ key: 'geofence', here: words(here) + (isLike ? ', elsewhere' : ''), there: words(there) }];
 }
 
 function flat(value: unknown, before = '', found: Record<string, string> = {}): Record<string, string> {

@@ -7,6 +7,7 @@ export function placeWords(key: string, sections: PlanSection[]): string {
   if (key === '') return 'The plan';
   const waypoint = /^waypoints\.(\d+)(?:\.(\w+))?/.exec(key);
   if (waypoint) return `Waypoint ${Number(waypoint[1]) + 1}${axis(waypoint[2])}`;
+  if (key === 'geofence') return 'Geofence';
   const corner = /^geofence\.(\d+)(?:\.(\w+))?/.exec(key);
   if (corner) return `Corner ${Number(corner[1]) + 1} of the fence${axis(corner[2])}`;
   if (/^start\b(?!_)/.test(key)) return `Start${axis(key.split('.')[1])}`;

@@ -3,6 +3,15 @@
 import { api, sentence } from '../../lib/api';
 import { clock } from '../../lib/clock.svelte';
 import { live } from '../../lib/live.svelte';
+import type { VehicleSummary } from '../../lib/types';
+
+/** A stretch in which nothing was received. */
+export interface Silence {
+  readonly begin: number;
+  readonly end: number;
+  /** Whether nothing more was received until the end of the replay. */
+  readonly is_last: boolean;
+}
 
 export interface ReplayState {
   readonly replay: string;
@@ -15,11 +24,25 @@ export interface ReplayState {
   readonly ended?: boolean;
   /** Why nothing comes; empty while all is well. */
   readonly reason?: string;
+  readonly skip_silence?: boolean;
+  /** In which it is now. */
+  readonly silence?: Silence | null;
+  /** How the vehicle was. */
+  readonly summary?: VehicleSummary;
+}
+
+export interface ReplayChange {
+  speed?: number;
+  paused?: boolean;
+  at?: number;
+  skip_silence?: boolean;
 }
 
 export class Player {
   state = $state.raw<ReplayState>();
   failure = $state<string>();
+  /** Rises with each jump: what was shown before is of another time. */
+  jumps = $state(0);
   #ends: (() => void)[] = [];
 
   constructor(readonly vehicle: number) {
@@ -45,10 +68,13 @@ export class Player {
     });
   }
 
-  async change(wanted: { speed?: number; paused?: boolean; at?: number }): Promise<void> {
+  async change(wanted: ReplayChange): Promise<void> {
     const id = this.state?.replay;
     if (id === undefined) return;
-    await this.#do(async () => this.#take({ ...wanted, ...(await api.put<Partial<ReplayState>>(`/replays/${id}`, wanted)) }));
+    await this.#do(async () => {
+      this.#take({ ...wanted, ...(await api.put<Partial<ReplayState>>(`/replays/${id}`, wanted)) });
+      if (wanted.at !== undefined) this.jumps += 1;
+    });
   }
 
   async stop(): Promise<void> {

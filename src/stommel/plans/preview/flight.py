@@ -1,6 +1,6 @@
 """A plan flown in the simulator, and what a page needs of the flight."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import ceil
 from typing import Any
 
@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from tsdownsample import MinMaxDownsampler
 
-from stommel.geometry.geodesics import Place, offsets
-from stommel.plans.geofence import Geofence
+from stommel.geometry.geodesics import offsets
 from stommel.plans.plan import StationPlan
 from stommel.plans.preview.dives import FlownDive, dives_of, energy_curve
 from stommel.plans.preview.mission import mission_of
+from stommel.plans.way import first_outside
 from stommel.simulation.flight import Flown, fly_mission
 from stommel.simulation.results.summary import summary
 
@@ -38,7 +38,8 @@ def previewed(plan: StationPlan, progress: Callable[[float], None] | None = None
         The plan is impossible, or the vehicle cannot fly the dives that it asks for.
     """
     flown = fly_mission(mission_of(plan), progress=progress)
-    row, dives = summary(flown), dives_of(flown)
+    row, dives, track = summary(flown), dives_of(flown), _track(flown)
+    left = first_outside(plan.geofence, track)
     return {
         "verdict": row["verdict"],
         "outcome": row["outcome"],
@@ -51,10 +52,11 @@ def previewed(plan: StationPlan, progress: Callable[[float], None] | None = None
         "dive_count": len(dives),
         "dives": [dive._asdict() for dive in _some(dives, MOST_DIVES)],
         "waypoints": _waypoints(row),
-        "track": _track(flown),
+        "track": track,
         "series": _series(flown),
         "path": _path(flown, dives),
-        "warnings": _warnings(plan, flown, row),
+        "left_geofence": left,
+        "warnings": _warnings(plan, flown, row, left),
     }
 
 
@@ -124,7 +126,7 @@ def _path(flown: Flown, dives: list[FlownDive]) -> dict[str, list[float]]:
     return {"distance_m": np.round(distance[kept], 2).tolist(), "depth_m": np.round(rows["depth"][kept], 3).tolist()}
 
 
-def _warnings(plan: StationPlan, flown: Flown, row: dict[str, Any]) -> list[str]:
+def _warnings(plan: StationPlan, flown: Flown, row: dict[str, Any], left: Mapping[str, float] | None) -> list[str]:
     found = []
     if row["outcome"] not in _COMPLETE:
         why = "; ".join(name for name in row["events"] if name not in _ORDINARY)
@@ -134,19 +136,7 @@ def _warnings(plan: StationPlan, flown: Flown, row: dict[str, Any]) -> list[str]
         found.append("the current is stronger than the vehicle: a waypoint only went farther away")
     elif plan.waypoints and not plan.guidance.repeat and row["waypoints_reached"] < row["waypoints_planned"]:
         found.append(row["verdict"])
-    left = _left_geofence(plan, flown)
     if left is not None:
-        found.append(f"the predicted track leaves the geofence after {left / 3600.0:.1f} hours")
+        hours = (left["t"] - flown.mission.scenario.start_seconds) / 3600.0
+        found.append(f"the predicted track leaves the geofence after {hours:.1f} hours")
     return found
-
-
-def _left_geofence(plan: StationPlan, flown: Flown) -> float | None:
-    """Time of the mission at which the track is first outside [s]; None where it never is."""
-    if not plan.geofence:
-        return None
-    fence = Geofence([Place(corner.latitude_deg, corner.longitude_deg) for corner in plan.geofence])
-    rows = flown.record[:: max(1, ceil(len(flown.record) / MOST_POINTS))]
-    for r in rows:
-        if not fence.holds(Place(float(np.degrees(r["latitude"])), float(np.degrees(r["longitude"])))):
-            return float(r["time"])
-    return None

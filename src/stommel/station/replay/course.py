@@ -18,6 +18,8 @@ class Course:
     at: float
     """All up to this time has been told."""
     paused: bool = False
+    skip_silence: bool = False
+    """Where nothing was received for a while, it goes on at what came next."""
 
     @property
     def is_at_end(self) -> bool:

@@ -1,6 +1,8 @@
 """What a vehicle had told in a stretch of time, and what was known of it at a moment."""
 
-from sqlalchemy import Connection, select
+from collections.abc import Mapping
+
+from sqlalchemy import Connection, func, select
 
 from stommel.archive.schema import channels, samples, texts
 from stommel.archive.times import microseconds, seconds
@@ -10,6 +12,16 @@ MOST_SAMPLES = 10_000
 """That are read at once."""
 _SHORTEST_US = 1000
 """A stretch that is not halved again."""
+
+
+def is_told(key: str) -> bool:
+    """Whether a channel comes from the vehicle; those of the link are measured here, also while it is silent."""
+    return not key.startswith("link_")
+
+
+def last_told(latest: Mapping[str, tuple[float, float]]) -> float | None:
+    """When the vehicle told something last; None where it never did."""
+    return max((t for key, (t, _) in latest.items() if is_told(key)), default=None)
 
 
 def channel_keys(connection: Connection, vehicle: int) -> dict[int, str]:
@@ -63,6 +75,23 @@ def samples_between(
         end_us = begin_us + (end_us - begin_us) // 2
     found = [(known[row.channel_id], seconds(row.t_us), row.value) for row in sorted(rows, key=lambda row: row.t_us)]
     return found, seconds(end_us)
+
+
+def next_after(connection: Connection, vehicle: int, known: dict[int, str], t: float) -> float | None:
+    """When the vehicle told something first after a time [s since 1970]; None where it did not."""
+    firsts = [
+        select(func.min(samples.c.t_us))
+        .where(
+            samples.c.vehicle_id == vehicle, samples.c.channel_id == number, samples.c.t_us > microseconds(t)
+        )
+        .scalar_subquery()
+        for number, key in known.items()
+        if is_told(key)
+    ]  # fmt: skip
+    if not firsts:
+        return None
+    found = [each for each in connection.execute(select(*firsts)).one() if each is not None]
+    return seconds(min(found)) if found else None
 
 
 def texts_between(connection: Connection, vehicle: int, begin: float, end: float) -> list[tuple[float, int, str]]:

@@ -3,6 +3,7 @@
 import logging
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from threading import Event, Lock, Thread
 from typing import Any
 
@@ -11,14 +12,19 @@ from stommel.errors import one_line
 from stommel.station.live.events import Happening, Samples
 from stommel.station.live.hub import Hub
 from stommel.station.replay.course import Course
-from stommel.station.replay.reading import channel_keys, samples_between, texts_between, values_at
+from stommel.station.replay.moment import Moment
+from stommel.station.replay.reading import channel_keys, is_told, last_told, samples_between, texts_between, values_at
+from stommel.station.replay.silence import Silences
+from stommel.station.settings import VehicleSettings
 
 TICK = 0.1
 """Between two looks [s]."""
 MOST_WAITING = 20_000
 """Samples that may wait for the slowest listener; while there are more, the replay stands still."""
-TELL_EVERY = 1.0
+TELL_EVERY = 0.5
 """How far it has come is told as often [s]."""
+LEAD = 1.0
+"""So long before the next sample a silence is left [s]."""
 ALONE = 60.0
 """For so long nobody may listen [s]."""
 _log = logging.getLogger(__name__)
@@ -36,8 +42,8 @@ class Replay:
         Name of the replay.
     user
         Who began it.
-    vehicle
-        Whose past it is.
+    settings
+        Of the vehicle whose past it is.
     course
         What is told, and how fast.
     archive
@@ -51,18 +57,23 @@ class Replay:
     """
 
     def __init__(
-        self, identity: str, user: str, vehicle: int, course: Course, archive: Archive, hub: Hub,
+        self, identity: str, user: str, settings: VehicleSettings, course: Course, archive: Archive, hub: Hub,
         ended: Callable[["Replay"], None], alone: float = ALONE,
     ) -> None:  # fmt: skip
-        self.identity, self.user, self.vehicle = identity, user, vehicle
+        self._settings = settings
+        self.identity, self.user, self.vehicle = identity, user, settings.vehicle
         self.name = f"replay:{identity}"
         self._course, self._archive, self._hub, self._ended, self._alone = course, archive, hub, ended, alone
-        self._reason = ""
+        self._reason, self._has_news = "", False
         self._lock = Lock()
         self._ends, self._woken = Event(), Event()
         with archive.reading() as connection:
-            self._channels = channel_keys(connection, vehicle)
-            known = values_at(connection, vehicle, self._channels, course.at)
+            self._channels = channel_keys(connection, self.vehicle)
+            known = values_at(connection, self.vehicle, self._channels, course.at)
+        self._last = last_told(known) or course.begin
+        self._silences = Silences(self.vehicle, self._channels, course.end)
+        self._moment = Moment(settings, archive, course.at)
+        self._summary = self._moment.summary(course.at, known)
         hub.open(self.name, lambda: self._course.at, known)
         self._thread = Thread(target=self._run, name=self.name, daemon=True)
 
@@ -77,8 +88,11 @@ class Replay:
         if self._thread.ident is not None:
             self._thread.join(5.0)
 
-    def change(self, speed: float | None = None, paused: bool | None = None, at: float | None = None) -> None:
-        """Go on at another speed, stand still or go on, or from another time.
+    def change(
+        self, speed: float | None = None, paused: bool | None = None, at: float | None = None,
+        skip_silence: bool | None = None,
+    ) -> None:  # fmt: skip
+        """Go on at another speed, stand still or go on, from another time, or over silences or through them.
 
         Raises
         ------
@@ -90,20 +104,26 @@ class Replay:
                 self._jump(at)
             self._course.speed = self._course.speed if speed is None else speed
             self._course.paused = self._course.paused if paused is None else paused
+            self._course.skip_silence = self._course.skip_silence if skip_silence is None else skip_silence
         self._woken.set()
 
     def state(self) -> dict[str, Any]:
-        """How far it has come."""
-        course = self._course
+        """How far it has come, and how the vehicle was."""
+        course, silence = self._course, self._silences.now
         return {
             "replay": self.identity, "vehicle": self.vehicle, "user": self.user, "begin": course.begin,
             "end": course.end, "at": course.at, "speed": course.speed, "paused": course.paused or course.is_at_end,
-            "ended": self._ends.is_set(), "reason": self._reason,
+            "ended": self._ends.is_set(), "reason": self._reason, "skip_silence": course.skip_silence,
+            "silence": None if silence is None else silence._asdict(), "summary": self._summary,
         }  # fmt: skip
 
     def _jump(self, at: float) -> None:
         with self._archive.reading() as connection:
             known = values_at(connection, self.vehicle, self._channels, at)
+        moment = Moment(self._settings, self._archive, at)
+        self._summary, self._moment = moment.summary(at, known), moment
+        self._last = last_told(known) or at
+        self._silences.jump()
         self._course.jump(at)
         self._hub.restart(self.name, known)
 
@@ -127,8 +147,8 @@ class Replay:
             is_heard = self._hub.listeners(self.name) > 0
             is_moved = is_heard and self._tell(now - last)
             last = now
-            if changed or (is_moved and now - told >= TELL_EVERY):
-                told = now
+            if changed or self._has_news or (is_moved and now - told >= TELL_EVERY):
+                told, self._has_news = now, False
                 self._publish_state()
             heard = now if is_heard else heard
             if now - heard > self._alone:
@@ -145,15 +165,35 @@ class Replay:
                 with self._archive.reading() as connection:
                     found, until = samples_between(connection, self.vehicle, self._channels, begin, due)
                     said = texts_between(connection, self.vehicle, begin, until)
+                    told = [t for key, t, _ in found if is_told(key)]
+                    if not told:
+                        self._has_news |= self._silences.mind(connection, self._last, until)
             except ArchiveError as error:
                 self._reason = str(error)
                 return False
             self._reason, course.at = "", until
+            if told:
+                self._last = told[-1]
+                self._has_news |= self._silences.hear()
             if found:
+                self._moment.take(found)
                 self._hub.publish(Samples(self.name, until, found))
+            self._leap()
+            self._has_news |= course.is_at_end
             for t, severity, words in said:
                 self._hub.publish(Happening("text", self.name, {"t": t, "severity": severity, "words": words}))
             return True
 
+    def _leap(self) -> None:
+        """Leave a silence behind, if that is wanted."""
+        silence = self._silences.now
+        if silence is None or not self._course.skip_silence:
+            return
+        end = silence.end if silence.is_last else silence.end - LEAD
+        if end > self._course.at:
+            self._course.at, self._has_news = end, True
+
     def _publish_state(self) -> None:
+        with suppress(ArchiveError):  # it tells how it was a moment ago
+            self._summary = self._moment.summary(self._course.at, self._hub.values(self.name))
         self._hub.publish(Happening("replay", self.vehicle, self.state()))

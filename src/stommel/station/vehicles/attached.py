@@ -9,6 +9,7 @@ from sqlalchemy import select
 
 from stommel.archive import Archive, Batch, DiveRow
 from stommel.archive.schema import dives
+from stommel.archive.times import microseconds
 from stommel.station.live.events import Happening, Samples, Summary
 from stommel.station.live.hub import Hub
 from stommel.station.settings import VehicleSettings
@@ -101,9 +102,12 @@ class VehicleNews:
         return summary
 
 
-def last_dives(archive: Archive, vehicle: int, most: int = MOST_DIVES) -> Sequence[DiveRow]:
-    """The last dives of a vehicle, the oldest first."""
-    newest = select(dives).where(dives.c.vehicle_id == vehicle).order_by(dives.c.t_begin_us.desc()).limit(most)
+def last_dives(archive: Archive, vehicle: int, most: int = MOST_DIVES, until: float | None = None) -> Sequence[DiveRow]:
+    """The last dives of a vehicle, the oldest first; of those that had ended until a time, if one is given."""
+    mine = select(dives).where(dives.c.vehicle_id == vehicle)
+    if until is not None:
+        mine = mine.where(dives.c.t_end_us <= microseconds(until))
+    newest = mine.order_by(dives.c.t_begin_us.desc()).limit(most)
     with archive.reading() as connection:
         rows = connection.execute(newest).mappings().all()
     return [

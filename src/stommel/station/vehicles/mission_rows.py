@@ -73,6 +73,20 @@ class MissionRows:
         """The last mission of a vehicle with these orders; None if there is none."""
         return self._first(missions.c.vehicle_id == vehicle, missions.c.sha256 == sha256)
 
+    def held_at(self, vehicle: int, t: float) -> MissionRow | None:
+        """The mission to which the vehicle had switched last at a time [s since 1970]; None if that is not known."""
+        of = mission_history.c
+        chosen = (
+            select(missions)
+            .join(mission_history, of.mission_id == missions.c.id)
+            .where(missions.c.vehicle_id == vehicle, of.state == ABOARD, of.t_us <= microseconds(t))
+            .order_by(of.t_us.desc(), of.id.desc())
+            .limit(1)
+        )
+        with self._archive.reading() as connection:
+            row = connection.execute(chosen).first()
+        return None if row is None else _read(row)
+
     def in_states(self, vehicle: int, *states: str) -> list[MissionRow]:
         """Missions of a vehicle in these states, the newest first."""
         chosen = select(missions).where(missions.c.vehicle_id == vehicle, missions.c.state.in_(states))

@@ -120,6 +120,17 @@ class Missions:
             "mission": None if row is None else self.told(row), **flown,
         }  # fmt: skip
 
+    def held_at(self, vehicle: int, t: float) -> dict[str, Any]:
+        """Which mission the vehicle held at a time [s since 1970], as the API tells it."""
+        row = self._rows.held_at(vehicle, t)
+        flown = {"waypoints": [], "geofence": [], "depth_m": None} if row is None else _flown(row)
+        return {
+            "number": None, "name": None if row is None else row.name, "sha256": None if row is None else row.sha256,
+            "previous_sha256": None, "t": t, "waiting": 0, "upload": None,
+            "missing": "it is not known which mission the vehicle held then" if row is None else None,
+            "mission": None if row is None else self.told(row), **flown,
+        }  # fmt: skip
+
     def list(self, vehicle: int, limit: int) -> Sequence[MissionRow]:
         """The last missions of a vehicle, the newest first."""
         return self._rows.page(vehicle, limit)

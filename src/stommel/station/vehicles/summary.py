@@ -2,13 +2,12 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from stommel.archive import DiveRow
 from stommel.compilation import plain
 from stommel.geometry.earth import metres_per_radian
 from stommel.messages.mavlink import entry_words
-from stommel.station.vehicles.line_status import LineStatus
 
 LAST_DIVES = 3
 """Whose mean duration tells when the vehicle surfaces next."""
@@ -30,6 +29,22 @@ class Approach(NamedTuple):
     """Distance that it loses [m/s]."""
 
 
+class Contact(Protocol):
+    """Whether a vehicle is heard."""
+
+    @property
+    def heard(self) -> bool:
+        """Whether it is."""
+
+    @property
+    def last_contact(self) -> float | None:
+        """When it was last [s since 1970]."""
+
+    @property
+    def reason(self) -> str:
+        """Why it is not."""
+
+
 class Known(NamedTuple):
     """What a summary is made of."""
 
@@ -39,7 +54,7 @@ class Known(NamedTuple):
     simulated: bool
     speed: float
     now: float
-    status: LineStatus
+    status: Contact
     latest: Latest
     dives: Sequence[DiveRow]
     """The last dives, the oldest first."""

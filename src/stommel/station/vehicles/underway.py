@@ -55,16 +55,16 @@ class Underway:
             self.left_surface = None
         self._afloat = afloat
 
-    def restore(self, archive: Archive, vehicle: int) -> None:
-        """Look again at the last hours that the archive has, so that a restart of the station forgets nothing.
+    def restore(self, archive: Archive, vehicle: int, until: float | None = None) -> None:
+        """Look again at the last hours that the archive has, or had at a time, so that a restart forgets nothing.
 
         Raises
         ------
         ArchiveError
             The archive fails.
         """
-        latest = [archive.latest(vehicle).get(key, (0.0, 0.0))[0] for key in WATCHED]
-        end = max(latest)
+        end = max(archive.latest(vehicle).get(key, (0.0, 0.0))[0] for key in WATCHED)
+        end = end if until is None else min(end, until)
         if end <= 0.0:
             return
         found: list[Sample] = []

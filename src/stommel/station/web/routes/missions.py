@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Path, Query
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from stommel.archive.times import GREATEST_TIME
 from stommel.plans.flown import current_of_last_dive
 from stommel.plans.plan import StationPlan
 from stommel.plans.problems import plan_from
@@ -20,6 +21,10 @@ router = APIRouter(prefix="/api", tags=["missions"])
 MOST_ORDERS = 1_000_000
 LEAST_VALID, MOST_VALID, USUAL = 60.0, 604_800.0, 6 * 3600.0
 Validity = Annotated[float, Field(ge=LEAST_VALID, le=MOST_VALID, allow_inf_nan=False)]
+
+Past = Annotated[
+    float | None, Query(ge=0.0, le=GREATEST_TIME, allow_inf_nan=False, description="Seconds since 1970.")
+]  # fmt: skip
 
 
 MissionState = Literal["waiting", "sending", "aboard", "replaced", "refused", "failed", "interrupted"]
@@ -157,8 +162,10 @@ def show_mission(
 
 
 @router.get("/vehicles/{vehicle}/mission")
-def show_mission_aboard(_user: Viewer, line: Line, station: TheStation) -> MissionAboard:
-    """Return which mission the vehicle holds, and what is on its way to it."""
+def show_mission_aboard(_user: Viewer, line: Line, station: TheStation, at: Past = None) -> MissionAboard:
+    """Return which mission the vehicle holds, and what is on its way to it; or which one it held at a time."""
+    if at is not None:
+        return MissionAboard.model_validate(station.missions.held_at(line.vehicle, at))
     return MissionAboard.model_validate(station.missions.aboard(line.vehicle))
 
 

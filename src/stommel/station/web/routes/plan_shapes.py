@@ -123,6 +123,8 @@ class Preview(BaseModel):
     series: dict[str, list[float]]
     """`t`, `depth_m`, `pitch_deg`, `ballast_ml`, `bottom_depth_m`, `energy_j`: columns of one length."""
     path: PlannedPath
+    left_geofence: TrackPoint | None = None
+    """Where the track is outside of the geofence for the first time."""
     warnings: list[str]
 
 
@@ -215,3 +217,5 @@ class Comparison(BaseModel):
     dives: list[Compared]
     reason: str | None
     """Why there is nothing to compare with."""
+    left_geofence: TrackPoint | None = None
+    """Where the vehicle was outside of the geofence of its plan for the first time."""

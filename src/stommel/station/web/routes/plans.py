@@ -5,6 +5,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Query
 
+from stommel.archive.times import GREATEST_TIME
 from stommel.errors import FileError
 from stommel.files.sentences import validated
 from stommel.geometry.geodesics import Place
@@ -12,12 +13,14 @@ from stommel.planning.vehicle_limits import vehicle_limits
 from stommel.plans.comparison import ComparedDive, compared
 from stommel.plans.expected_water import ocean_at
 from stommel.plans.fields import plan_fields
-from stommel.plans.flown import current_of_last_dive, held_mission, neutral_density
+from stommel.plans.flown import HeldMission, current_of_last_dive, held_mission, neutral_density
 from stommel.plans.plan import StationPlan
 from stommel.plans.problems import PlanError, plan_from
 from stommel.plans.resolving import resolved
 from stommel.plans.templates import DEFAULT_START, place_row, templates
+from stommel.plans.way import first_outside
 from stommel.station.station import Station
+from stommel.station.track import read_track
 from stommel.station.web.access import Pilot, Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation, line_to
@@ -35,6 +38,7 @@ from stommel.station.web.routes.plan_shapes import (
     PlanTemplates,
     Problem,
     StartedJob,
+    TrackPoint,
 )
 from stommel.vehicle import builtin_names, load_vehicle
 
@@ -44,6 +48,8 @@ JobName = Annotated[str, Path(min_length=1, max_length=64, pattern=r"^[0-9a-f]+$
 DEFAULT_VEHICLE = "zju"
 MOST_COMPARED = 2000
 """Dives of a comparison: the last ones."""
+MOST_TRACK = 2000
+"""Points of a track that are held against the geofence."""
 
 
 @router.get("/plan-templates")
@@ -141,7 +147,22 @@ def compare_mission(
     elif not any(row.flown for row in rows):
         reason = "the vehicle has reported no dive of this mission yet"
     dives = [_compared(row) for row in rows[-MOST_COMPARED:]]
-    return Comparison(mission=held.name, t=held.begin or None, dives=dives, reason=reason)
+    left = _left_geofence(station, line.vehicle, held)
+    return Comparison(mission=held.name, t=held.begin or None, dives=dives, reason=reason, left_geofence=left)
+
+
+def _left_geofence(station: Station, vehicle: int, held: HeldMission) -> TrackPoint | None:
+    """Where the vehicle left the geofence of the plan that it flies; None where it did not, or there is none."""
+    try:
+        corners = () if held.plan is None else plan_from(held.plan).geofence
+    except PlanError:  # of an older station
+        corners = ()
+    if not corners:
+        return None
+    track = read_track(station.archive, vehicle, held.begin, GREATEST_TIME, MOST_TRACK)
+    points = zip(track.t, track.latitude, track.longitude, strict=True)
+    left = first_outside(corners, ({"t": t, "lat": latitude, "lon": longitude} for t, latitude, longitude in points))
+    return None if left is None else TrackPoint.model_validate(left)
 
 
 def _predicted(preview: Mapping[str, Any] | None) -> list[dict[str, Any]] | None:

@@ -9,10 +9,11 @@ from stommel.archive.times import GREATEST_TIME
 from stommel.station.people.roles import Role, User
 from stommel.station.replay.course import LEAST_SPEED, MOST_SPEED
 from stommel.station.replay.replay import Replay
-from stommel.station.replay.replays import ReplayError
+from stommel.station.replay.replays import NothingReceivedError, ReplayError
 from stommel.station.web.access import Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import TheStation, line_to
+from stommel.station.web.routes.vehicles import VehicleSummary
 
 router = APIRouter(prefix="/api", tags=["replays"])
 
@@ -43,6 +44,17 @@ class ReplayChange(BaseModel):
     paused: bool | None = None
     at: Time | None = None
     """Goes on from this time, between begin and end."""
+    skip_silence: bool | None = None
+    """Whether it goes on at what came next, where nothing was received for a while."""
+
+
+class Silence(BaseModel):
+    """A stretch in which nothing was received."""
+
+    begin: float
+    end: float
+    is_last: bool
+    """Whether nothing more was received before the end of the replay."""
 
 
 class ReplayState(BaseModel):
@@ -62,6 +74,11 @@ class ReplayState(BaseModel):
     """Nobody can go on with it."""
     reason: str
     """Why nothing comes; empty while all is well."""
+    skip_silence: bool
+    silence: Silence | None
+    """In which the replay is now."""
+    summary: VehicleSummary
+    """How the vehicle was, as of the last second."""
 
 
 def replay_of(
@@ -91,6 +108,10 @@ def begin_replay(user: Viewer, body: NewReplay, station: TheStation) -> ReplaySt
         raise refusal(422, "a replay ends after it begins", key="end", value=body.end, allowed="a second after begin")
     try:
         replay = station.replays.begin(user.name, body.vehicle, body.begin, body.end, body.speed)
+    except NothingReceivedError as error:
+        raise refusal(
+            422, str(error), key="begin", value=body.begin, allowed="a stretch with something in it"
+        ) from None
     except ReplayError as error:
         raise refusal(409, str(error)) from None
     return ReplayState(**replay.state())
@@ -110,7 +131,7 @@ def change_replay(user: Viewer, found: OneReplay, body: ReplayChange) -> ReplayS
     if body.at is not None and not begin <= body.at <= end:
         allowed = f"{begin:.3f} to {end:.3f}"
         raise refusal(422, "this time is not in the replay", key="at", value=body.at, allowed=allowed)
-    found.change(body.speed, body.paused, body.at)
+    found.change(body.speed, body.paused, body.at, body.skip_silence)
     return ReplayState(**found.state())
 
 

@@ -1,0 +1,59 @@
+"""How a vehicle was at a moment of the past, in the words in which the station tells how it is."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from stommel.archive import Archive, DiveRow
+from stommel.station.replay.reading import last_told
+from stommel.station.settings import VehicleSettings
+from stommel.station.vehicles.attached import last_dives
+from stommel.station.vehicles.summary import LAST_DIVES, Known, summary_of
+from stommel.station.vehicles.underway import Sample, Underway
+
+HEARD_FOR = 60.0
+"""A vehicle counts as heard if something came of it so lately [s]."""
+
+
+class PastContact(NamedTuple):
+    """Whether the vehicle was heard."""
+
+    heard: bool
+    last_contact: float | None
+    reason: str
+
+
+class Moment:
+    """Follows a vehicle through a stretch of its past; times by its clock [s since 1970].
+
+    Raises
+    ------
+    ArchiveError
+        The archive cannot be read.
+    """
+
+    def __init__(self, settings: VehicleSettings, archive: Archive, at: float) -> None:
+        self._settings, self._archive = settings, archive
+        self._underway = Underway()
+        self._underway.restore(archive, settings.vehicle, at)
+
+    def take(self, samples: Sequence[Sample]) -> None:
+        """Take what the vehicle told next."""
+        self._underway.take(samples)
+
+    def summary(self, at: float, latest: Mapping[str, tuple[float, float]]) -> dict[str, Any]:
+        """How the vehicle was at a time, out of the latest values until then; who held command then is left out."""
+        settings = self._settings
+        known = Known(
+            settings.vehicle, settings.title, settings.model, settings.is_simulated, settings.speed, at,
+            _contact(at, latest), latest, self._dives(at), self._underway.left_surface, self._underway.approach,
+        )  # fmt: skip
+        return summary_of(known) | {"holder": None}
+
+    def _dives(self, at: float) -> Sequence[DiveRow]:
+        return last_dives(self._archive, self._settings.vehicle, LAST_DIVES, until=at)
+
+
+def _contact(at: float, latest: Mapping[str, tuple[float, float]]) -> PastContact:
+    last = last_told(latest)
+    heard = last is not None and at - last <= HEARD_FOR
+    return PastContact(heard, last, "" if heard else "nothing was received at that time")

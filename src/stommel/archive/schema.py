@@ -114,19 +114,8 @@ dives = Table(
     Column("dive", BigInteger, primary_key=True, autoincrement=False),
     Column("t_begin_us", BigInteger, primary_key=True, autoincrement=False),
     Column("t_end_us", BigInteger),
-    *(
-        Column(name, Double)
-        for name in (
-            "latitude_begin",
-            "longitude_begin",
-            "latitude_end",
-            "longitude_end",
-            "greatest_depth_m",
-            "current_north_m_s",
-            "current_east_m_s",
-            "energy_j",
-        )
-    ),
+    *value_columns("latitude_begin", "longitude_begin", "latitude_end", "longitude_end", "greatest_depth_m"),
+    *value_columns("current_north_m_s", "current_east_m_s", "energy_j"),
     Column("log_id", NUMBER),  # of the log that told of it; none: the radio alone
 )
 

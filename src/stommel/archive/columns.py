@@ -1,6 +1,6 @@
 """What the tables of the archive have in common: names of rules, numbers of rows, the vehicle of a row."""
 
-from sqlalchemy import BigInteger, Column, ForeignKey, Integer, MetaData
+from sqlalchemy import BigInteger, Column, Double, ForeignKey, Integer, MetaData
 
 metadata = MetaData(
     naming_convention={
@@ -23,3 +23,8 @@ def number_column() -> Column[int]:
 def vehicle_column(*, key: bool = False, nullable: bool = False) -> Column[int]:
     """Vehicle of a row."""
     return Column("vehicle_id", Integer, ForeignKey("vehicles.id"), primary_key=key, nullable=nullable)
+
+
+def value_columns(*names: str) -> list[Column[float]]:
+    """Values that may be unknown."""
+    return [Column(name, Double) for name in names]

@@ -48,7 +48,7 @@ def _step(book: Logbook, second: int) -> None:
     book.append(records.READINGS, (t, *motion, 0.01, 1e-4, 0.0, *hull, *fix))
     dives = dive + (not afloat)
     book.append(records.DECISION, (t, phase, t, 0.0 if dives == 0 else begun, dives, int(dives > 0), 0, 0, 2, 0.1))
-    sigma = 5.0 if afloat and k > 10 else 100.0 + k
+    sigma = 5.0 if afloat and k > 10 else 300.0
     book.append(records.NAVIGATION, (t, math.radians(30.0) + 1e-8 * second, math.radians(122.0), sigma, 0.125, -0.25))
     book.append(records.ACTUATORS, (t, 2.5e-4, 0.0125, 0.25, False, False, 2.0, 0.5, 0.0))
     if second % 10 == 0:

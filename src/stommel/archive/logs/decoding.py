@@ -57,6 +57,8 @@ class LogDecoder:
         self._finder = DiveFinder(_phases_of(contents), self.dated)
         self._samples: list[tuple[str, float, float]] = []
         self._ctd: list[CtdRow] = []
+        self._undecided: list[CtdRow] = []
+        """Samples before the decision of their step, which tells the number of the dive."""
         self._records = self._told = 0
         self._begin = self._last = math.nan
 
@@ -87,21 +89,27 @@ class LogDecoder:
         try:
             if kind == "decision":
                 finder.decision(fields)
+                self._decide()
             elif kind == "navigation":
                 finder.navigation(fields)
             elif kind == "battery":
                 finder.battery(fields)
             elif kind == "ctd":
                 values = [_known(fields.get(name)) for name in ("pressure", "temperature", "conductivity")]
-                self._ctd.append(CtdRow(at, finder.number, *values))
+                self._undecided.append(CtdRow(at, None, *values))
         except (KeyError, TypeError, ValueError, OverflowError):
             return  # a log of other fields tells no dives
 
-    def batch(self, end: int) -> Decoded:
+    def _decide(self) -> None:
+        self._ctd += [row._replace(dive=self._finder.number) for row in self._undecided]
+        self._undecided = []
+
+    def batch(self, end: int, *, is_last: bool = False) -> Decoded:
         """What was taken since the last batch."""
         finder = self._finder
-        ctd = [row if row.dive is not None else row._replace(dive=finder.number) for row in self._ctd]
-        made = Batch(samples=self._samples, dives=list(finder.found.values()), ctd=ctd)
+        if is_last or len(self._undecided) >= AT_ONCE:
+            self._decide()
+        made = Batch(samples=self._samples, dives=list(finder.found.values()), ctd=self._ctd)
         self._told += len(self._samples)
         self._samples, self._ctd = [], []
         finder.found = {}
@@ -132,7 +140,7 @@ def decoded(contents: LogContents, data: bytes, first: int) -> Iterator[Decoded]
             waiting = 0
         decoder.take(record)
         waiting += 1
-    yield decoder.batch(contents.offset)
+    yield decoder.batch(contents.offset, is_last=True)
 
 
 def _clock_of(contents: LogContents) -> tuple[float, float]:

@@ -75,6 +75,8 @@ def take_log(
         row = _taken(archive, rows, row, decoded(contents, data, first), contents, told, rest)
     except UndatedLogError as error:
         row = row._replace(state=REFUSED, words=str(error))
+    if row.state == GOING:
+        return row
     if row.state == TAKEN:
         rows.deepen(row)
     rows.change(row)

@@ -18,7 +18,7 @@ from sqlalchemy import (
     Table,
 )
 
-from stommel.archive.columns import NUMBER, metadata, number_column, vehicle_column
+from stommel.archive.columns import NUMBER, metadata, number_column, value_columns, vehicle_column
 from stommel.archive.log_tables import ctd_hours, logs, profiles
 from stommel.archive.wording import Name, Words
 
@@ -117,14 +117,8 @@ dives = Table(
     Column("dive", BigInteger, primary_key=True, autoincrement=False),
     Column("t_begin_us", BigInteger, primary_key=True, autoincrement=False),
     Column("t_end_us", BigInteger),
-    Column("latitude_begin", Double),
-    Column("longitude_begin", Double),
-    Column("latitude_end", Double),
-    Column("longitude_end", Double),
-    Column("greatest_depth_m", Double),
-    Column("current_north_m_s", Double),
-    Column("current_east_m_s", Double),
-    Column("energy_j", Double),
+    *value_columns("latitude_begin", "longitude_begin", "latitude_end", "longitude_end", "greatest_depth_m"),
+    *value_columns("current_north_m_s", "current_east_m_s", "energy_j"),
     Column("log_id", NUMBER),  # of the log that told of it; none: the radio alone
 )
 

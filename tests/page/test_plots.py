@@ -288,3 +288,23 @@ def test_nobody_is_kept_from_the_plots(plots: Plots, past: Past, serious: Any) -
     """axe-core: no serious finding."""
     plots.open(f"{past.begin}-{past.end}", "own&channels=depth_m,pitch_deg")
     assert serious() == []
+
+
+def test_a_limit_that_somebody_sets_is_drawn_at_once(plots: Plots) -> None:
+    """In a window of the past, in which nothing else changes what is drawn."""
+    past = plots.past
+    plots.open(f"{past.begin}-{past.begin + 3600}")
+    pitch = next(k for k, panel in enumerate(plots.drawn()) if "pitch_deg" in panel["channels"])
+    picture = "(k) => document.querySelectorAll('[data-panel]')[k].querySelector('canvas').toDataURL()"
+
+    def looks() -> str:
+        return str(plots.page.evaluate(picture, pitch))
+
+    address = f"{past.address}/api/vehicles/1/limits/roll_deg"
+    without = looks()
+    httpx.put(address, json={"high": 12.0, "severity": "notice"}).raise_for_status()
+    try:
+        until(plots.page, lambda: looks() != without)
+    finally:
+        httpx.delete(address).raise_for_status()
+    until(plots.page, lambda: looks() == without)

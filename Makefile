@@ -77,7 +77,7 @@ test: check $(PAGE)
 	$(BIN)/python page/npm.py run --silent lint
 	$(BIN)/python page/npm.py run --silent check
 	$(BIN)/python page/npm.py run --silent test
-	$(BIN)/python -m pytest --numprocesses auto --dist loadgroup
+	$(BIN)/python -m pytest --numprocesses auto --dist loadscope --no-loadscope-reorder
 
 bench: $(VENV)/test.stamp $(PAGE)
 	$(BIN)/python benchmarks/run.py

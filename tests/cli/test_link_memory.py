@@ -103,7 +103,7 @@ def test_a_peer_of_mavlink_1_is_not_silence(tmp_path: Path) -> None:
     """A HEARTBEAT of the old protocol, byte for byte from pymavlink."""
     with saying(bytes.fromhex("fe09000101000000000016080004032001")) as address:
         told = status_of(tmp_path, address)
-    assert "bytes came, but no sound frame of MAVLink 2" in told
+    assert "bytes came, but no" in told  # how many tells whether it may be another speed of the port
     assert "nothing came" not in told
 
 

@@ -136,7 +136,11 @@ def test_parameters_of_a_node_are_those_of_its_component(vehicle: Afloat) -> Non
         with suppress(ParamError):  # 4.1.0 selects, and says that it has not
             await parameters.select_component(MOTION_COMPONENT, ProtocolVersion.V1)
         assert len(held) > 10
-        assert listed(await parameters.get_all_params()) == pytest.approx(held, rel=1e-6)
+        found = listed(await parameters.get_all_params())
+        for _ in range(3):  # on a busy machine it gives up on some before they come
+            if len(found) < len(held):
+                found = listed(await parameters.get_all_params())
+        assert found == pytest.approx(held, rel=1e-6)
 
     with_vehicle(vehicle, use)
 

@@ -34,7 +34,7 @@ def test_a_chart_of_geojson_and_one_of_an_image_are_added_and_removed(
     dialog = page.get_by_role("dialog")
     dialog.get_by_label("File").set_input_files(tmp_path / "broken.geojson")
     dialog.get_by_role("button", name="Add to the map").click()
-    dialog.get_by_text("This file is no GeoJSON.").wait_for()
+    dialog.get_by_text("This file begins as GeoJSON and breaks off").wait_for()
     dialog.get_by_label("File").set_input_files(tmp_path / "reef.geojson")
     dialog.get_by_label("Name").fill("Reef")
     dialog.get_by_role("button", name="Add to the map").click()

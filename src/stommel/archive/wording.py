@@ -14,6 +14,7 @@ class Name(TypeDecorator[str]):
 
     impl = String
     cache_ok = True
+    """A statement with it may be kept compiled, since it has no state of its own."""
 
     def process_bind_param(self, value: str | None, dialect: Dialect) -> str | None:  # noqa: ARG002 - as SQLAlchemy asks
         """Words on their way to the database."""
@@ -25,3 +26,4 @@ class Words(Name):
 
     impl = Text
     cache_ok = True
+    """A statement with it may be kept compiled, since it has no state of its own."""

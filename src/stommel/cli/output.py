@@ -79,6 +79,11 @@ def _console() -> "Console":
     return Console(width=None if _is_terminal() else WIDTH, highlight=False, markup=False, emoji=False)
 
 
+def terminal_width() -> int:
+    """Columns of the terminal; without one, those of an ordinary one."""
+    return _console().width
+
+
 def number(value: float | None, digits: int, unit: str = "") -> str:
     """Write a number with a fixed count of decimals; a dash for none."""
     if value is None:

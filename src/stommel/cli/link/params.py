@@ -18,11 +18,14 @@ from stommel.cli.link.line import (
     progress,
 )
 from stommel.cli.options import JsonOption
-from stommel.cli.output import show_notes, show_table, show_values
+from stommel.cli.output import show_notes, show_table, show_values, terminal_width
 
 if TYPE_CHECKING:
     from stommel.cli.link.line import Line
     from stommel.link.parameters.known import KnownSet
+
+_WIDE = 130
+"""Columns from which a table has room for what each parameter means."""
 
 params_app = typer.Typer(no_args_is_help=True, help="Parameters of a vehicle and its nodes.")
 
@@ -107,15 +110,19 @@ def _parameter(known: "KnownSet", number: int) -> dict[str, Any]:
 
 
 def _show(row: dict[str, Any]) -> None:
+    columns = ("name", "value", "unit", "range", "meaning")
+    fit = columns if terminal_width() >= _WIDE else columns[:-1]
     for component in row["components"]:
         rows = [
             (each["name"], "?" if each["value"] is None else f"{each['value']:g}", each["unit"] or "-",
-             f"{each['low']:g} to {each['high']:g}", each["words"] or "-")
+             f"{each['low']:g} to {each['high']:g}", each["words"] or "-")[: len(fit)]
             for each in component["parameters"]
         ]  # fmt: skip
         title = f"{component['name']} (component {component['component']})"
         notes = [] if component["whole"] else [f"not up to date: {component['reason'] or component['state']}"]
-        show_table(title, ("name", "value", "unit", "range", "meaning"), rows, notes)
+        show_table(title, fit, rows, notes)
+    if fit != columns:
+        show_notes([f"what each means stands beside it from {_WIDE} columns on, and in --json"])
     show_notes(row["notes"], "note")
 
 

@@ -157,10 +157,15 @@ def _inverse(x: float) -> float:
     return 1.0 / x
 
 
+@compiled
+def _over(record: np.record, x: float) -> float:
+    return float(record.value) / x
+
+
 @pytest.fixture
 def untouched(monkeypatch: pytest.MonkeyPatch) -> None:
     """The functions above, as in a process that has compiled none of them."""
-    for function in (_half, _halve, _halve_within, _inverse):
+    for function in (_half, _halve, _halve_within, _inverse, _over):
         monkeypatch.setattr(function, "_call", function._first)  # type: ignore[attr-defined]  # see decorators
 
 
@@ -207,6 +212,19 @@ def test_where_python_stops_at_a_division_by_zero_the_question_goes_on_in_machin
         assert _inverse(2.0) == 0.5
         assert is_plain(_inverse)
         assert _inverse(0.0) == math.inf
+
+
+@pytest.mark.usefixtures("untouched")
+def test_a_record_that_nobody_may_change_is_left_as_it_is_when_a_question_begins_anew() -> None:
+    """`stommel steady zju --moving-mass-mm 700 --ballast-ml -55` in a new process called that a defect of stommel."""
+    rows = np.ones(1, ROW)
+    rows.flags.writeable = False
+    frozen = rows.view(np.recarray)[0]
+    with one_question():
+        assert _over(frozen, 2.0) == 0.5
+        assert is_plain(_over)
+        assert _over(frozen, 0.0) == math.inf
+    assert not is_plain(_over)
 
 
 def test_a_decorated_function_looks_like_the_function_behind_it() -> None:

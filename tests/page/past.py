@@ -71,7 +71,8 @@ def fill(database: str, begin: float, end: float) -> None:
 
 
 def _dive(number: int, t: float) -> DiveRow:
-    first, last = values("latitude_deg", t), values("latitude_deg", t + DIVE)
+    first = values("latitude_deg", t)
+    last = first + 0.25 * DIVE / EARTH_M  # also where the closed form begins again, at each sixth hour of the day
     east = values("longitude_deg", t)
     return DiveRow(number, t, t + DIVE, first, east, last, east, 200.0, 0.1, 0.2, 12_000.0)
 

@@ -115,7 +115,7 @@ def _changeable(arguments: Iterable[Any]) -> Iterator[Any]:
     for one in arguments:
         if isinstance(one, tuple):
             yield from _changeable(one)
-        elif (isinstance(one, np.ndarray) and one.flags.writeable) or isinstance(one, np.record):
+        elif isinstance(one, np.ndarray | np.record) and one.flags.writeable:
             yield one
 
 

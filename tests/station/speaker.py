@@ -10,6 +10,9 @@ from tests.support.waiting import WITHIN, until
 
 __all__ = ["Speaker", "speaker", "until"]
 
+_ESTABLISHED = 1
+"""State of a TCP connection of which both ends are open, as Linux numbers it."""
+
 
 class Speaker:
     """Waits for the station to connect, and speaks."""
@@ -28,9 +31,14 @@ class Speaker:
         return f"tcp:127.0.0.1:{self._listening.getsockname()[1]}"
 
     def connect(self) -> None:
-        """Wait for the station."""
+        """Wait for the station; what a station that was killed has left behind in the queue is no connection."""
         self._listening.settimeout(WITHIN)
-        self._socket, _ = self._listening.accept()
+        while True:
+            accepted, _ = self._listening.accept()
+            if accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, 1)[0] == _ESTABLISHED:
+                break
+            accepted.close()
+        self._socket = accepted
         self._socket.setblocking(False)
 
     def hang_up(self) -> None:

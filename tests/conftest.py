@@ -1,5 +1,6 @@
 """What tests of several rooms share: the command, the paper's glider, studies and reports, data beside the checkout."""
 
+import os
 from collections.abc import Callable
 from functools import cache, partial
 from pathlib import Path
@@ -29,6 +30,12 @@ def group_of(nodeid: str) -> str:
     """What a test stays together with."""
     file = nodeid.partition("::")[0]
     return next((name for name, begins in TOGETHER.items() if file.startswith(begins)), file)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """One worker more than cores: browsers, servers and flights in real time are mostly waited for."""
+    return (os.cpu_count() or 1) + 1
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -2,13 +2,21 @@
 
 import math
 import re
+from collections.abc import Iterator
 from typing import Any
 
 import httpx
 import pytest
 
-from tests.page.past import GAP, Past, values
+from tests.page.past import GAP, Past, past_station, values
 from tests.page.waiting import at_rest, becomes, passes, until
+
+
+@pytest.fixture(scope="module")
+def past(built: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Past]:
+    """A station of their own: its silences are those that are written into it, whatever other tests say to theirs."""
+    with past_station(tmp_path_factory.mktemp("replayed")) as found:
+        yield found
 
 
 @pytest.fixture(autouse=True)

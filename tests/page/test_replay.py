@@ -26,13 +26,17 @@ def none_before(past: Past) -> None:
         httpx.delete(f"{past.address}/api/replays/{state['replay']}")
 
 
+def filled(page: Any) -> None:
+    """Wait until the form has the times of the address, which it asks the station for."""
+    until(page, lambda: page.get_by_role("textbox", name="From").input_value() != "")
+
+
 def begun(page: Any, past: Past, speed: str = "60") -> Any:
     """A replay of the first two hours."""
-    from playwright.sync_api import expect
-
     page.goto(f"{past.address}/#/vehicle/1/replay?begin={past.begin:.0f}&end={past.begin + 7200:.0f}")
-    expect(page.get_by_role("textbox", name="From")).not_to_have_value("")
+    filled(page)
     page.get_by_role("spinbutton", name="Speed").fill(speed)
+    filled(page)
     page.get_by_role("button", name="Start the replay").click()
     page.locator(".tile .value").first.wait_for()
     return page
@@ -150,6 +154,7 @@ def test_a_stretch_that_cannot_be_is_refused(page: Any, past: Past) -> None:
 
     page.goto(f"{past.address}/#/vehicle/1/replay?begin={past.begin + 60:.0f}&end={past.begin:.0f}")
     expect(page.get_by_role("textbox", name="From")).not_to_have_value("")
+    filled(page)
     page.get_by_role("button", name="Start the replay").click()
     page.get_by_text("The end must be after the beginning.").wait_for()
 
@@ -192,6 +197,7 @@ def test_a_silence_is_told_and_jumped_over(page: Any, past: Past, screenshot: An
     gap = [past.begin + hours * 3600.0 for hours in GAP]
     page.goto(f"{past.address}/#/vehicle/1/replay?begin={gap[0] - 60:.0f}&end={gap[1] + 600:.0f}")
     page.get_by_role("spinbutton", name="Speed").fill("200")
+    filled(page)
     page.get_by_role("button", name="Start the replay").click()
     page.get_by_text("Nothing was received from").wait_for()
     screenshot("replay-silence")
@@ -210,6 +216,7 @@ def test_a_silence_is_told_and_jumped_over(page: Any, past: Past, screenshot: An
 def test_a_stretch_with_nothing_in_it_is_refused_with_what_is_around_it(page: Any, past: Past) -> None:
     begin = past.begin + GAP[0] * 3600.0 + 300.0
     page.goto(f"{past.address}/#/vehicle/1/replay?begin={begin:.0f}&end={begin + 300:.0f}")
+    filled(page)
     page.get_by_role("button", name="Start the replay").click()
     page.get_by_role("alert").get_by_text("nothing was received of vehicle 1 in this stretch of time").wait_for()
     page.get_by_role("alert").get_by_text("the next at").wait_for()
@@ -219,6 +226,7 @@ def test_two_tabs_have_replays_of_their_own(page: Any, past: Past) -> None:
     begun(page, past, "1")
     other = page.context.new_page()
     other.goto(f"{past.address}/#/vehicle/1/replay?begin={past.begin + 7200:.0f}&end={past.begin + 10_800:.0f}")
+    filled(other)
     other.get_by_role("button", name="Start the replay").click()
     other.locator(".tile .value").first.wait_for()
     until(page, lambda: len(states(past)) == 2)

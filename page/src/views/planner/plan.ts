@@ -7,6 +7,16 @@ export interface PlanPlace {
   longitude_deg: number;
 }
 
+/** A place of the map as a plan has it: five digits are a metre. */
+export function rounded(place: { latitude: number; longitude: number }): PlanPlace {
+  return { latitude_deg: Number(place.latitude.toFixed(5)), longitude_deg: Number(place.longitude.toFixed(5)) };
+}
+
+/** A place of a plan as the map has it. */
+export function plain(place: PlanPlace): { latitude: number; longitude: number } {
+  return { latitude: place.latitude_deg, longitude: place.longitude_deg };
+}
+
 export interface Plan {
   format: 1;
   name: string;
@@ -23,6 +33,17 @@ export interface PlanProblem {
   value: string;
   reason: string;
   allowed: string;
+}
+
+/** A place of a plan in a table. */
+export interface PlaceRow {
+  /** Where it stands in the plan: "start", "waypoints.2", "geofence.0". */
+  key: string;
+  label: string;
+  /** What its fields are called. */
+  name: string;
+  kind: 'start' | 'waypoint' | 'corner';
+  place: PlanPlace;
 }
 
 /** The lists of places of a plan. */

@@ -3,31 +3,10 @@
 import { api, sentence } from '../../lib/api';
 import { live } from '../../lib/live.svelte';
 import type { Place } from '../../lib/map/types';
+import type { MissionAboard, Mission as MissionRow } from '../../lib/types';
 import { tidy, type Plan } from './plan';
 
-export interface MissionRow {
-  id: number;
-  vehicle: number;
-  t: number;
-  /** Who gave it; null: it was found aboard. */
-  user: string | null;
-  name: string;
-  sha256: string;
-  state: string;
-  words: string;
-}
-
-interface MissionAboard {
-  number: number | null;
-  name: string | null;
-  sha256: string | null;
-  previous_sha256: string | null;
-  /** Why something is not known, or what the last request came to. */
-  missing: string | null;
-  waypoints: (Place & { radius_m: number })[];
-  geofence: Place[];
-  upload: (MissionRow & { progress: { done: number; of: number; seconds_left: number | null } | null }) | null;
-}
+export type { MissionRow };
 
 export class Aboard {
   readonly vehicle: number;

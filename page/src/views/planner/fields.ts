@@ -1,19 +1,9 @@
 /** Fields of a plan as the station describes them: one set of words, units and ranges, which the page does not repeat. */
 
+import type { PlanField as ToldField } from '../../lib/types';
+
 /** A value of a plan, as the station tells it. */
-export interface ToldField {
-  key: string;
-  words: string;
-  unit: string;
-  low: number | null;
-  high: number | null;
-  /** Whether 0 is allowed beside the range. */
-  or_zero: boolean;
-  choices: string[];
-  several: boolean;
-  required: boolean;
-  default: unknown;
-}
+export type { ToldField };
 
 export type FieldKind = 'number' | 'flag' | 'choice' | 'choices' | 'text';
 

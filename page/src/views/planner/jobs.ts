@@ -1,41 +1,8 @@
-import type { PlanProblem } from './plan';
-
 /** A preview: what the simulator found, or how far it is. */
 
-export interface PreviewDive {
-  dive: number;
-  t_begin: number;
-  t_end: number;
-  greatest_depth_m: number;
-}
+import type { Job, Preview as PreviewResult } from '../../lib/types';
 
-export interface PreviewResult {
-  /** Whether the mission is done, in words. */
-  verdict: string;
-  outcome: string;
-  t_begin: number;
-  duration_s: number;
-  energy_j: number | null;
-  battery_left_share: number | null;
-  distance_m: number;
-  surfacings: number;
-  dive_count: number;
-  dives: PreviewDive[];
-  track: { t: number; lat: number; lon: number }[];
-  series: Record<string, (number | null)[]>;
-  /** Where the track is outside of the geofence for the first time. */
-  left_geofence: { t: number; lat: number; lon: number } | null;
-  warnings: string[];
-}
-
-export interface Job {
-  job: string;
-  state: 'waiting' | 'starting' | 'running' | 'done' | 'failed' | 'cancelled';
-  share: number;
-  seconds_left: number | null;
-  result: PreviewResult | null;
-  error: { reason: string; problems?: PlanProblem[] } | null;
-}
+export type { Job, PreviewResult };
 
 /** Whether a job ended, one way or the other. */
 export function isOver(job: Job): boolean {

@@ -1,7 +1,6 @@
 // Where plots get their values from: a vehicle as it is, or a replay of what it did.
 
 import { untrack } from 'svelte';
-import { SvelteMap } from 'svelte/reactivity';
 
 import { api } from '../../lib/api';
 import { clock } from '../../lib/clock.svelte';
@@ -42,22 +41,14 @@ const AHEAD_S = 10;
 /** The station: the archive of a vehicle, and the live socket of it or of a replay of it. */
 export class StationSource implements PlotSource {
   readonly key: string;
-  private readonly limits: SvelteMap<string, Limit>;
 
   constructor(
     readonly vehicle: number,
     readonly liveKey: VehicleKey,
     readonly channels: ReadonlyMap<string, Channel>,
-    limits: ReadonlyMap<string, Limit>,
+    readonly limits: ReadonlyMap<string, Limit>,
   ) {
     this.key = String(liveKey);
-    this.limits = new SvelteMap(limits);
-  }
-
-  /** A limit that somebody has set, or removed, since. */
-  setLimit(channel: string, limit: Limit | null): void {
-    if (limit) this.limits.set(channel, limit);
-    else this.limits.delete(channel);
   }
 
   now(): number {

@@ -45,7 +45,7 @@ def test_several_vehicles_at_once_are_kept_apart(tmp_path: Path) -> None:
         for number in (1, 2, 3):
             until(lambda: found.hub.values(number).get("depth_m", (0, 0))[1] == 1000.0 * number + 99)  # noqa: B023
             assert found.archive.series(number, "depth_m", 0.0, 4e9).samples == 100
-        two.hang_up()
+        two.close()  # for good: a line that can open again does so between two looks at its status
         until(lambda: not found.vehicles[2].status().is_open)
         one.say("GLIDER_STATE", time_boot_ms=500, depth=7.0)
         until(lambda: found.hub.values(1)["depth_m"][1] == 7.0)

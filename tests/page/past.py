@@ -68,6 +68,15 @@ def fill(database: str, begin: float, end: float) -> None:
             archive.store(1, Batch(samples=[(key, t, values(key, t)) for t in times]))
         dives = [_dive(number, (first + number - 1) * DIVE) for number in range(1, int(end / DIVE) - first + 1)]
         archive.store(1, Batch(dives=dives, ctd=[row for dive in dives for row in _ctd(dive)]))
+        archive.store(1, Batch(texts=[text for dive in dives for text in said(dive)]))
+
+
+def said(dive: DiveRow) -> list[tuple[float, int, str]]:
+    """What the vehicle says of a dive: time, severity, words."""
+    return [
+        (dive.t_begin, 6, f"mission: descent: dive {dive.dive}"),
+        (dive.t_begin + DIVE / 2, 6, f"mission: ascent: dive {dive.dive}"),
+    ]
 
 
 def _dive(number: int, t: float) -> DiveRow:

@@ -192,6 +192,20 @@ def test_the_whole_vehicle_is_shown_as_it_was_and_is_marked_as_the_past(page: An
     assert page.locator("main").get_by_role("button", name=re.compile("Abort|Send|Dive")).count() == 0
 
 
+def test_what_the_vehicle_had_said_by_then_stands_there(page: Any, past: Past) -> None:
+    """Oracle: what the archive has until the moment of the replay."""
+    page.goto(f"{past.address}/#/vehicle/1/replay?begin={past.begin + 5400:.0f}&end={past.begin + 9000:.0f}")
+    filled(page)
+    page.get_by_role("spinbutton", name="Speed").fill("1")
+    page.get_by_role("button", name="Start the replay").click()
+    shown = page.get_by_role("region", name="What the vehicle said").locator("li span")
+    shown.first.wait_for()
+    at = states(past)[0]["at"]
+    said = httpx.get(f"{past.address}/api/vehicles/1/texts?end={at}&limit=3").json()
+    assert len(said) >= 2
+    becomes(page, shown.all_inner_texts, [one["words"] for one in reversed(said)])
+
+
 def test_a_silence_is_told_and_jumped_over(page: Any, past: Past, screenshot: Any) -> None:
     """Oracle: the half hour in which nothing was received."""
     gap = [past.begin + hours * 3600.0 for hours in GAP]

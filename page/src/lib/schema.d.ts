@@ -419,7 +419,7 @@ export interface components {
         };
         LogEntry: {
             /** @enum {string} */
-            kind: "alarm" | "command" | "mission" | "note";
+            kind: "alarm" | "command" | "mission" | "note" | "text";
             id: string;
             t: number;
             user: string | null;

@@ -42,6 +42,7 @@ export type {
   ProfileLine as ProfileRow,
   Role,
   Section as SectionAnswer,
+  Sentence,
   SeriesAnswer,
   Shape,
   StateMachine,

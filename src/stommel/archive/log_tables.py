@@ -55,6 +55,8 @@ logs = Table(
     Column("begin_us", BigInteger),
     Column("end_us", BigInteger),
     Column("changed_us", BigInteger, nullable=False),  # by the station's clock
+    Column("texts", BigInteger, nullable=False, server_default="0"),
+    Column("left_out", BigInteger, nullable=False, server_default="0"),  # rows that no archive takes
     UniqueConstraint("vehicle_id", "sha256"),
 )
 """Files of vehicles' logs that were taken in, each once by its content; telemetry from begin to end is from it too."""

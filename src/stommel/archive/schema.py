@@ -107,6 +107,7 @@ texts = Table(
     Column("t_us", BigInteger, nullable=False),
     Column("severity", Integer, nullable=False),  # MAVLink's: 0 emergency ... 7 debug
     Column("words", Words, nullable=False),
+    Column("log_id", NUMBER),  # of the log that it is from; none: it came by radio
     Index("ix_texts_vehicle_id_t_us", "vehicle_id", "t_us"),
 )
 

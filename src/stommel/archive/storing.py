@@ -12,13 +12,12 @@ from stommel.archive.ctd_storing import write_ctd
 from stommel.archive.dive_storing import write_dives
 from stommel.archive.numbers import GREATEST_VALUE
 from stommel.archive.rows import Batch, CtdRow, DiveRow, FrameRow
-from stommel.archive.schema import frames, samples, texts, vehicles
+from stommel.archive.schema import frames, samples, vehicles
+from stommel.archive.text_storing import write_texts
 from stommel.archive.times import is_time, microseconds
 from stommel.archive.upserting import insert_rows
-from stommel.archive.wording import storable
 
 _FRAME = ("vehicle_id", "t_us", "received_us", *FrameRow._fields[1:])
-_TEXT = ("vehicle_id", "t_us", "severity", "words")
 
 
 NumbersOf = Callable[[set[str]], Mapping[str, int]]
@@ -70,9 +69,8 @@ def writers(
     def write_samples(rows: Sequence[tuple[str, float, float]]) -> None:
         _write_samples(connection, vehicle, rows, numbers_of)
 
-    def write_texts(rows: Sequence[tuple[float, int, str]]) -> None:
-        told = [(vehicle, microseconds(t), severity, storable(words)) for t, severity, words in rows]
-        insert_rows(connection, texts, _TEXT, told)
+    def write_of_texts(rows: Sequence[tuple[float, int, str]]) -> None:
+        write_texts(connection, vehicle, rows, batch.log)
 
     def write_of_dives(rows: Sequence[DiveRow]) -> None:
         write_dives(connection, vehicle, rows, batch.log)
@@ -81,7 +79,7 @@ def writers(
         write_ctd(connection, vehicle, rows, batch.log)
 
     parts: dict[str, Write] = {
-        "frames": write_frames, "samples": write_samples, "texts": write_texts, "dives": write_of_dives,
+        "frames": write_frames, "samples": write_samples, "texts": write_of_texts, "dives": write_of_dives,
         "ctd": write_of_ctd,
     }  # fmt: skip
     return [(name, write, rows) for name, write in parts.items() if (rows := getattr(batch, name))]

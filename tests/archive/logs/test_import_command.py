@@ -33,6 +33,8 @@ def test_logs_are_taken_in_and_told(stommel: Command, home: Path) -> None:
     assert [row["state"] for row in found] == ["taken", "taken"]
     assert sum(row["dives"] for row in found) == 3
     assert found[0]["begin"] == UTC
+    assert (found[0]["texts"], found[0]["left_out"]) == (12, 0)
+    assert "12 status texts" in told.out
     assert all(str(row["samples"]) in told.out for row in found)
     with Archive.open(str(home / "sea.sqlite")) as archive:
         assert len(archive.dives(1)) == 3

@@ -20,7 +20,7 @@ from stommel.archive.schema import ctd
 from stommel.errors import FileError
 from stommel.messages.log.reader import read_log
 from stommel.station.channels import channel_named
-from tests.archive.logs.written import CTD_EVERY, DIVE, STAY, UTC, depth_at
+from tests.archive.logs.written import CTD_EVERY, DIVE, STAY, UTC, current_of, depth_at
 from tests.archive.logs.written import logs as written
 
 PERIOD = DIVE + STAY
@@ -113,6 +113,48 @@ def test_dives_are_found_with_what_the_log_knows_of_them(archive: Archive, files
     assert found[0].energy_j == pytest.approx(10.0 * DIVE, abs=100.0)
     assert found[0].latitude_end == pytest.approx(30.0 + math.degrees(1e-8 * (PERIOD + 11)), abs=1e-9)
     assert found[2].latitude_end is None
+    currents = [(row.current_north_m_s, row.current_east_m_s) for row in found]
+    assert currents == [(current_of(1), -0.25), (current_of(2), -0.25), (None, None)]  # known when the next begins
+
+
+SAID = {
+    0: (6, "communicate: control is at the surface"),
+    STAY: (6, "mission: descent: control dives"),
+    STAY + 7: (4, "alarm: over-depth"),
+    STAY + 9: (5, "log:dropped: 12 records of the series detail"),
+}
+"""Severity and words, by the step of each dive."""
+
+
+def test_what_happened_aboard_is_told_in_the_words_of_the_radio(archive: Archive, essential: bytes) -> None:
+    row = take(archive, essential)
+    said = [(dive * PERIOD + k, *words) for dive in range(3) for k, words in SAID.items()]
+    assert [(round(text.t - UTC), text.severity, text.words) for text in archive.texts(1)] == said
+    assert row.texts == len(said)
+
+
+def test_what_the_radio_told_later_is_told_once_and_at_its_time(archive: Archive, essential: bytes) -> None:
+    """Under water nobody hears it; at the surface it is said, and how bad it is stays as it was said."""
+    late = PERIOD + 5.0  # at the surface after the first dive
+    heard = [(UTC + late, 0, "alarm: over-depth"), (UTC + late, 6, "only by radio")]
+    archive.store(1, Batch(texts=heard))
+    take(archive, essential)
+    before = archive.texts(1)
+    alarms = [(round(text.t - UTC), text.severity) for text in before if text.words == "alarm: over-depth"]
+    assert alarms == [(STAY + 7, 0), (PERIOD + STAY + 7, 4), (2 * PERIOD + STAY + 7, 4)]
+    assert [round(text.t - UTC) for text in before if text.words == "only by radio"] == [late]
+    assert len(before) == 3 * len(SAID) + 1
+
+
+def test_rows_that_no_archive_takes_are_counted(
+    archive: Archive, essential: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    store = archive.store_sound
+    monkeypatch.setattr(
+        archive, "store_sound", lambda vehicle, batch: store(vehicle, batch)._replace(left_out=["one", "two"])
+    )
+    steps: list[LogRow] = []
+    assert take(archive, essential, told=lambda row: steps.append(row) is None).left_out == 2 * (len(steps) - 1) > 0
 
 
 def test_a_dive_over_two_files_is_one_in_any_order(

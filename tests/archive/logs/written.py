@@ -13,6 +13,19 @@ UTC, BOOT = 1_750_000_000.0, 5000.0
 DIVE, STAY, CTD_EVERY = 100, 20, 4
 """Steps of a dive and of a stay at the surface, a second each; between two samples of the CTD."""
 
+WORDS = {
+    0: ("executive", "communicate: control is at the surface"),
+    STAY: ("executive", "mission: descent: control dives"),
+    STAY + 7: ("safety:raised", "over-depth"),
+    STAY + 9: ("log:dropped", "12 records of the series detail"),
+}
+"""Code and words of what happens, by the step of each dive."""
+
+
+def current_of(dive: int) -> float:
+    """Current to the north that is known in a dive, counted from 0: the mean of the dive before [m/s]."""
+    return 0.125 + 0.0625 * max(dive, 0)
+
 
 def depth_at(second: int) -> float:
     """Down and up at 0.5 m/s [m]."""
@@ -49,8 +62,11 @@ def _step(book: Logbook, second: int) -> None:
     dives = dive + (not afloat)
     book.append(records.DECISION, (t, phase, t, 0.0 if dives == 0 else begun, dives, int(dives > 0), 0, 0, 2, 0.1))
     sigma = 5.0 if afloat and k > 10 else 300.0
-    book.append(records.NAVIGATION, (t, math.radians(30.0) + 1e-8 * second, math.radians(122.0), sigma, 0.125, -0.25))
+    place = math.radians(30.0) + 1e-8 * second, math.radians(122.0)
+    book.append(records.NAVIGATION, (t, *place, sigma, current_of(dive - afloat), -0.25))
     book.append(records.ACTUATORS, (t, 2.5e-4, 0.0125, 0.25, False, False, 2.0, 0.5, 0.0))
     if second % 10 == 0:
         book.append(records.BATTERY, (t, 12.5, 1.5, 18.0, 10.0 * second))
+    if (words := WORDS.get(k)) is not None:
+        book.event(t, *words)
     book.step(t)

@@ -11,7 +11,9 @@ export function logWords(log: Omit<StoredLog, 'begin' | 'end'>): string {
   if (log.state === 'waiting') return 'waits to go into the archive';
   if (log.state === 'going') return `goes into the archive: ${Math.floor(100 * log.share)} %`;
   if (log.state === 'refused') return `not in the archive: ${log.words}`;
-  const told = `in the archive: ${counted(log.samples, 'sample')}, ${counted(log.dives, 'dive')}`;
+  const found = [counted(log.samples, 'sample'), counted(log.dives, 'dive'), counted(log.texts, 'status text')];
+  if (log.left_out > 0) found.push(`${counted(log.left_out, 'row')} left out, which no archive takes`);
+  const told = `in the archive: ${found.join(', ')}`;
   return log.words.startsWith('whole') ? told : `${told}; ${log.words}`;
 }
 

@@ -8,7 +8,8 @@ export type { LogEntry };
 
 const PAGE = 100;
 const REST_MS = 250;
-const KINDS: readonly EventKind[] = ['note', 'command', 'mission', 'alarm'];
+const KINDS: readonly EventKind[] = ['note', 'command', 'mission', 'alarm', 'text', 'log'];
+const NOTICE = 5;
 
 export class Feed {
   entries = $state.raw<readonly LogEntry[]>();
@@ -27,7 +28,7 @@ export class Feed {
     this.#ends.push(live.onOpen(again));
   }
 
-  /** Shows entries of some kinds that have some words; all kinds if none is named. */
+  /** Shows entries of some kinds that have some words. If none is named: all kinds, but of what the vehicle said no mere information. */
   find(kinds: readonly string[], search: string): void {
     this.#kinds = kinds;
     this.#search = search.trim();
@@ -76,6 +77,7 @@ export class Feed {
     const number = this.#number;
     const query = new URLSearchParams(this.#kinds.map((kind) => ['kinds', kind]));
     query.set('limit', String(PAGE));
+    if (!this.#kinds.includes('text')) query.set('severity', String(NOTICE));
     if (this.#search) query.set('search', this.#search);
     if (before !== null) query.set('before', before);
     this.isBusy = true;

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from stommel.archive.logs.channels import CHANNELS, Fields
 from stommel.archive.logs.dives import DiveFinder
+from stommel.archive.logs.happenings import text_of
 from stommel.archive.rows import Batch, CtdRow
 from stommel.errors import StommelError
 from stommel.messages.log.reader import LogContents, ReadKind, Record, records_of
@@ -30,6 +31,8 @@ class Decoded(NamedTuple):
     """So far in the file."""
     samples: int
     """Values of channels so far."""
+    texts: int
+    """So far."""
     dives: int
     """So far."""
     begin: float | None
@@ -56,10 +59,11 @@ class LogDecoder:
         self._names = {kind.name: kind.names for kind in contents.kinds.values()}
         self._finder = DiveFinder(_phases_of(contents), self.dated)
         self._samples: list[tuple[str, float, float]] = []
+        self._texts: list[tuple[float, int, str]] = []
         self._ctd: list[CtdRow] = []
         self._undecided: list[CtdRow] = []
         """Samples before the decision of their step, which tells the number of the dive."""
-        self._records = self._told = 0
+        self._records = self._sampled = self._said = 0
         self._begin = self._last = math.nan
 
     def dated(self, t: float) -> float:
@@ -70,7 +74,7 @@ class LogDecoder:
         """Take a record; one of a kind that says nothing here, or of no time, is only counted."""
         self._records += 1
         names = self._names.get(record.kind, ())
-        if record.kind not in CHANNELS or "t" not in names:
+        if (record.kind not in CHANNELS and record.kind != "event") or "t" not in names:
             return
         fields = dict(zip(names, record.values, strict=True))
         t = fields["t"]
@@ -78,7 +82,7 @@ class LogDecoder:
             return
         at = self.dated(t)
         self._begin, self._last = min(at, self._begin), max(at, self._last)  # of no number and a number, the number
-        for key, value in CHANNELS[record.kind]:
+        for key, value in CHANNELS.get(record.kind, ()):
             found = value(fields)
             if found is not None:
                 self._samples.append((key, at, found))
@@ -97,6 +101,8 @@ class LogDecoder:
             elif kind == "ctd":
                 values = [_known(fields.get(name)) for name in ("pressure", "temperature", "conductivity")]
                 self._undecided.append(CtdRow(at, None, *values))
+            elif kind == "event" and (text := text_of(fields, at)) is not None:
+                self._texts.append(text)
         except (KeyError, TypeError, ValueError, OverflowError):
             return  # a log of other fields tells no dives
 
@@ -109,12 +115,13 @@ class LogDecoder:
         finder = self._finder
         if is_last or len(self._undecided) >= AT_ONCE:
             self._decide()
-        made = Batch(samples=self._samples, dives=list(finder.found.values()), ctd=self._ctd)
-        self._told += len(self._samples)
-        self._samples, self._ctd = [], []
+        made = Batch(samples=self._samples, texts=self._texts, dives=list(finder.found.values()), ctd=self._ctd)
+        self._sampled += len(self._samples)
+        self._said += len(self._texts)
+        self._samples, self._texts, self._ctd = [], [], []
         finder.found = {}
         begin, last = (None if math.isnan(t) else t for t in (self._begin, self._last))
-        return Decoded(made, end, self._records, self._told, len(finder.seen), begin, last)
+        return Decoded(made, end, self._records, self._sampled, self._said, len(finder.seen), begin, last)
 
 
 def decoded(contents: LogContents, data: bytes, first: int) -> Iterator[Decoded]:

@@ -28,6 +28,10 @@ class DiveFinder:
         self._afloat: bool | None = None
         self._dive: DiveRow | None = None
         """Under way, or the last, whose end is not all known."""
+        self._before: DiveRow | None = None
+        """The dive before the one under way, if this file has seen its end."""
+        self._current: tuple[float, float] | None = None
+        """By the last record of navigation."""
         self._place: Fields = {}
         """The last record of navigation."""
         self._used = self._used_before = math.nan
@@ -59,6 +63,7 @@ class DiveFinder:
         place = self._place
         if self._dive is not None and is_seen and place:
             self._seeks_place = False
+        self._before = self._dive if is_seen else None
         self._dive = DiveRow(number, self._dated(fields["submerged_since"]))
         self._used_before = self._used if is_seen else math.nan
         if is_seen and place:
@@ -67,13 +72,22 @@ class DiveFinder:
             self._told()
 
     def navigation(self, fields: Fields) -> None:
-        """Take where the vehicle believes to be; what a position by GPS makes more certain is where the dive ended."""
+        """Take where the vehicle believes to be; what a position by GPS makes more certain is where the dive ended.
+
+        The mean current of a dive is known when the vehicle leaves the surface after it: then it becomes another.
+        """
         place = {name: math.degrees(fields[name]) for name in ("latitude", "longitude")} | {"sigma": fields["sigma"]}
         better = bool(self._place) and place["sigma"] < self._place["sigma"]
         if self._seeks_place and better:
             self._seeks_place = False
             self._told(latitude_end=place["latitude"], longitude_end=place["longitude"])
         self._place = place
+        current = fields["current_north"], fields["current_east"]
+        before, self._current = self._current, current
+        if before not in (None, current) and self._before is not None and all(map(math.isfinite, current)):
+            north, east = current
+            self._note(self._before._replace(current_north_m_s=north, current_east_m_s=east))
+            self._before = None
 
     def battery(self, fields: Fields) -> None:
         """Take what was used so far."""
@@ -81,6 +95,9 @@ class DiveFinder:
 
     def _told(self, **more: Any) -> None:
         assert self._dive is not None
-        dive = self._dive = self._dive._replace(**more)
+        self._dive = self._dive._replace(**more)
+        self._note(self._dive)
+
+    def _note(self, dive: DiveRow) -> None:
         self.found[dive.dive, dive.t_begin] = dive
         self.seen.add((dive.dive, dive.t_begin))

@@ -36,6 +36,10 @@ class LogRow(NamedTuple):
     dives: int = 0
     begin: float | None = None
     end: float | None = None
+    texts: int = 0
+    """What happened aboard, in words."""
+    left_out: int = 0
+    """Rows that no archive takes; the file has them."""
 
 
 class LogRows:

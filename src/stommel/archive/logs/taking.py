@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Iterator
 from functools import partial
 from hashlib import sha256
+from typing import TypeVar
 
 from stommel.archive.archive import Archive
 from stommel.archive.errors import ArchiveBusyError
@@ -22,6 +23,7 @@ Told = Callable[[LogRow], bool]
 """Is told of each step; False ends it there, to be gone on with another time."""
 Rest = Callable[[float], None]
 """Waits so long [s]."""
+T = TypeVar("T")
 
 
 def is_log(beginning: bytes) -> bool:
@@ -101,12 +103,13 @@ def _taken(
     row = row._replace(state=GOING, words="", series=str(header["series"]), software=str(header["software"]))
     for step in steps:
         row = row._replace(
-            records=step.records, samples=step.samples, dives=step.dives, begin=step.begin, end=step.last,
-            offset=max(step.end, done),
+            records=step.records, samples=step.samples, texts=step.texts, dives=step.dives, begin=step.begin,
+            end=step.last, offset=max(step.end, done),
         )  # fmt: skip
         if step.end <= done:
             continue  # it is there since before the interruption
-        _patiently(partial(archive.store_sound, row.vehicle, step.batch._replace(log=row.id)), rest)
+        kept = _patiently(partial(archive.store_sound, row.vehicle, step.batch._replace(log=row.id)), rest)
+        row = row._replace(left_out=row.left_out + len(kept.left_out))
         _patiently(partial(rows.change, row), rest)
         if not told(row):
             return row
@@ -114,12 +117,10 @@ def _taken(
     return row._replace(state=TAKEN, words=contents.verdict)
 
 
-def _patiently(write: Callable[[], object], rest: Rest) -> None:
+def _patiently(write: Callable[[], T], rest: Rest) -> T:
     for _ in range(TRIES):
         try:
-            write()
+            return write()
         except ArchiveBusyError:
             rest(1.0)
-        else:
-            return
-    write()
+    return write()

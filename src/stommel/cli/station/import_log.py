@@ -74,7 +74,10 @@ def _taken(archive: "Archive", vehicle: int, file: str) -> "LogRow":
 
 
 def _told(row: "LogRow") -> dict[str, Any]:
-    names = ("name", "sha256", "size", "series", "software", "state", "words", "records", "samples", "dives")
+    names = (
+        "name", "sha256", "size", "series", "software", "state", "words", "records", "samples", "dives", "texts",
+        "left_out",
+    )  # fmt: skip
     told: dict[str, Any] = {name: getattr(row, name) for name in names}
     return told | {"begin": row.begin, "end": row.end}
 
@@ -85,7 +88,10 @@ def _show(rows: list["LogRow"]) -> None:
 
 def _sentence(row: "LogRow") -> str:
     span = "" if row.begin is None or row.end is None else f"; {_utc(row.begin)} to {_utc(row.end)} UTC"
-    return f"{row.words}: {counted(row.samples, 'sample')}, {counted(row.dives, 'dive')}{span}"
+    found = [counted(row.samples, "sample"), counted(row.dives, "dive"), counted(row.texts, "status text")]
+    if row.left_out:
+        found.append(f"{counted(row.left_out, 'row')} left out, which no archive takes")
+    return f"{row.words}: {', '.join(found)}{span}"
 
 
 def _utc(t: float) -> str:

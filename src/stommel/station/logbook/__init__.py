@@ -1,1 +1,1 @@
-"""The log book: notes of people, and beside them commands, missions and alarms."""
+"""The log book: notes of people, and beside them commands, missions, alarms, and what the vehicle said."""

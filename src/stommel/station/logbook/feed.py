@@ -1,4 +1,4 @@
-"""Everything about a vehicle in one list by time: notes, commands, missions, alarms."""
+"""Everything about a vehicle in one list by time: notes, commands, missions, alarms, and what it said in words."""
 
 import re
 from collections.abc import Callable, Collection
@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from sqlalchemy import ColumnElement, Row, Table, and_, false, or_, select
 
 from stommel.archive import Archive
-from stommel.archive.schema import alarms, commands, missions, notes
+from stommel.archive.schema import alarms, commands, missions, notes, texts
 from stommel.archive.times import seconds
 from stommel.station.logbook.searching import has_words
 
@@ -21,7 +21,7 @@ class Entry(NamedTuple):
     user: str | None
     words: str
     state: str | None
-    """What has become of it; None of a note."""
+    """What has become of it, or how bad the vehicle calls it; None of a note."""
 
 
 Told = tuple[str | None, str, str | None]
@@ -55,6 +55,15 @@ def _note(row: Row[Any]) -> Told:
     return row.user, row.words, None
 
 
+SEVERITIES = ("emergency", "alert", "critical", "error", "warning", "notice", "info", "debug")
+"""Words of MAV_SEVERITY, which is the place in this list."""
+
+
+def _text(row: Row[Any]) -> Told:
+    severity = SEVERITIES[row.severity] if 0 <= row.severity < len(SEVERITIES) else f"severity {row.severity}"
+    return None, row.words, severity if row.log_id is None else f"{severity}, from its log"
+
+
 def _with(words: str, more: str | None) -> str:
     return f"{words}: {more}" if more else words
 
@@ -64,10 +73,11 @@ SOURCES: dict[str, _Source] = {
     "command": _Source(commands, "given_us", ("name", "outcome", "user"), _command),
     "mission": _Source(missions, "t_us", ("name", "user"), _mission),
     "note": _Source(notes, "t_us", ("words", "user"), _note),
+    "text": _Source(texts, "t_us", ("words",), _text),
 }
 """Where entries come from; at equal times in this order."""
 
-CURSOR = r"^(\d{1,17})-(alarm|command|mission|note)-([0-9a-f]{1,16})$"
+CURSOR = r"^(\d{1,17})-(alarm|command|mission|note|text)-([0-9a-f]{1,16})$"
 """Of a page: time, kind and number of the last entry."""
 
 
@@ -85,6 +95,7 @@ def page_of(
     *,
     kinds: Collection[str] = tuple(SOURCES),
     search: str = "",
+    severity: int = len(SEVERITIES) - 1,
     before: str | None = None,
     limit: int = 100,
 ) -> Page:
@@ -100,6 +111,8 @@ def page_of(
         What is wanted: names of `SOURCES`.
     search
         Words that an entry must have, each of them.
+    severity
+        Of the texts, the mildest: a place in `SEVERITIES`.
     before
         `next` of the page before; anything else gives an empty page.
     limit
@@ -113,6 +126,8 @@ def page_of(
             t_us, number = source.table.c[source.time], source.table.c.id
             query = select(source.table).where(source.table.c.vehicle_id == vehicle, _is_before(kind, source, before))
             query = query.where(has_words(search, *(source.table.c[name] for name in source.searched)))
+            if source.table is texts:
+                query = query.where(texts.c.severity <= severity)
             rows = connection.execute(query.order_by(t_us.desc(), number.desc()).limit(limit + 1))
             found += [(row._mapping[source.time], kind, _entry(kind, source, row)) for row in rows]
     found.sort(key=lambda one: (-one[0], one[1]))  # stable: numbers stay as each table gave them

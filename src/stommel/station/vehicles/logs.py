@@ -142,10 +142,8 @@ class LogChangedError(StommelError):
 
 
 def _told(row: LogRow | None) -> dict[str, Any]:
+    counts = {name: 0 if row is None else getattr(row, name) for name in ("samples", "dives", "texts", "left_out")}
     if row is None:
-        return {"state": "waiting", "words": "", "share": 0.0, "samples": 0, "dives": 0, "begin": None, "end": None}
+        return {"state": "waiting", "words": "", "share": 0.0, **counts, "begin": None, "end": None}
     share = 1.0 if row.state == TAKEN else min(1.0, row.offset / max(1, row.size))
-    return {
-        "state": row.state, "words": row.words, "share": share, "samples": row.samples, "dives": row.dives,
-        "begin": row.begin, "end": row.end,
-    }  # fmt: skip
+    return {"state": row.state, "words": row.words, "share": share, **counts, "begin": row.begin, "end": row.end}

@@ -89,6 +89,10 @@ class StoredLog(BaseModel):
     """Of it, that is in the archive."""
     samples: int
     dives: int
+    texts: int
+    """What happened aboard, in words."""
+    left_out: int
+    """Rows that no archive takes."""
     begin: float | None
     end: float | None
 

@@ -1,4 +1,4 @@
-"""The log book: notes of people, and beside them commands, missions and alarms."""
+"""The log book: notes of people, and beside them commands, missions, alarms, and what the vehicle said."""
 
 from typing import Annotated, Literal
 
@@ -20,7 +20,7 @@ GREATEST_NUMBER = (1 << 53) - 1
 """Of a row; beyond it JSON's numbers are not exact."""
 _AHEAD = 60.0
 """A note may be of a time so far ahead, for two clocks never agree [s]."""
-Kind = Literal["alarm", "command", "mission", "note"]
+Kind = Literal["alarm", "command", "mission", "note", "text"]
 Search = Annotated[str, Query(max_length=200, pattern=PRINTABLE, description="Words that must be in it.")]
 
 
@@ -57,7 +57,7 @@ class LogEntry(BaseModel):
     user: str | None
     words: str
     state: str | None
-    """What has become of it; null of a note."""
+    """What has become of it, or how bad it is by the vehicle; null of a note."""
 
 
 class LogPage(BaseModel):
@@ -103,13 +103,17 @@ def read_log(
     station: TheStation,
     kinds: Annotated[list[Kind] | None, Query(max_length=10, description="What is wanted; all if left out.")] = None,
     search: Search = "",
+    severity: Annotated[
+        int, Query(ge=0, le=7, description="Of what the vehicle said, the mildest; MAVLink's: 0 emergency to 7 debug.")
+    ] = 7,
     before: Annotated[
         str | None, Query(max_length=50, pattern=CURSOR, description="`next` of the page before.")
     ] = None,
     limit: Annotated[int, Query(ge=1, le=500)] = 100,
 ) -> LogPage:
-    """Notes, commands, missions and alarms of a vehicle in one list, the newest first."""
+    """Notes, commands, missions, alarms and words of a vehicle in one list, the newest first."""
     page = page_of(
-        station.archive, line.vehicle, kinds=kinds or tuple(SOURCES), search=search, before=before, limit=limit
-    )
+        station.archive, line.vehicle, kinds=kinds or tuple(SOURCES), search=search, severity=severity, before=before,
+        limit=limit,
+    )  # fmt: skip
     return LogPage(entries=[LogEntry(**entry._asdict()) for entry in page.entries], next=page.next)

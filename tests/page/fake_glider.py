@@ -120,7 +120,7 @@ def summary(vehicle: int, now: float, speed: float) -> dict[str, Any]:
         if found["position_sigma_m"] > 200.0
         else [],
         "position": {"latitude": found["latitude_deg"], "longitude": found["longitude_deg"], "t": now - 3.0,
-                     "sigma_m": found["position_sigma_m"]},
+                     "sigma_m": found["position_sigma_m"], "source": "estimate", "doubt": None},
         "battery": {"share": found["battery_left_share"], "voltage_v": found["voltage_v"], "t": now - 12.0},
         "next_surfacing": {"t": up, "why": f"end of dive {int(found['dive'])} as the last dives went"}
         if now < up

@@ -123,8 +123,11 @@ def track(vehicle: int, begin: float = 0.0, end: float = 1e12, points: int = 500
     first = max(begin, glider.EPOCH)
     times = [first + (last - first) * i / 199 for i in range(200)] if vehicle == 1 else []
     rows = [glider.values(t) for t in times]
-    return {"t": times, "latitude": [r["latitude_deg"] for r in rows], "longitude": [r["longitude_deg"] for r in rows],
-            "sigma_m": [r["position_sigma_m"] for r in rows], "source": ["estimate"] * len(rows)}  # fmt: skip
+    return {
+        "begin": first, "end": last, "left_out": 0, "t": times, "latitude": [r["latitude_deg"] for r in rows],
+        "longitude": [r["longitude_deg"] for r in rows], "sigma_m": [r["position_sigma_m"] for r in rows],
+        "source": ["estimate"] * len(rows),
+    }  # fmt: skip
 
 
 @app.get("/api/vehicles/{vehicle}/dives")

@@ -990,6 +990,8 @@ export interface components {
             share: number;
             samples: number;
             dives: number;
+            texts: number;
+            left_out: number;
             begin: number | null;
             end: number | null;
         };
@@ -1025,11 +1027,14 @@ export interface components {
             secret: string;
         };
         TrackAnswer: {
+            begin: number;
+            end: number;
             t: number[];
             latitude: number[];
             longitude: number[];
             sigma_m: (number | null)[];
             source: string[];
+            left_out: number;
         };
         TrackPoint: {
             t: number;
@@ -1108,6 +1113,9 @@ export interface components {
             longitude: number;
             t: number;
             sigma_m: number | null;
+            /** @enum {string} */
+            source: "gps" | "estimate";
+            doubt: string | null;
         };
         VehicleSummary: {
             vehicle: number;
@@ -1245,6 +1253,8 @@ export interface components {
             share: number;
             samples: number;
             dives: number;
+            texts: number;
+            left_out: number;
             begin: number | null;
             end: number | null;
             name: string;

@@ -1,15 +1,25 @@
 // What the station knows of a vehicle for a map: track, mission aboard, currents of its dives, chart layers.
 
+import { untrack } from 'svelte';
 import { api } from '../api';
 import { clock } from '../clock.svelte';
 import { live } from '../live.svelte';
-import type { DiveRow, LayerRow, MissionAboard, Track, VehicleKey } from '../types';
-import type { MapArrow, MapLayer, MapWaypoint, Place } from './types';
+import type { DiveRow, LayerRow, MissionAboard, Position, Track, VehicleKey } from '../types';
+import { spanWords, trackSpan } from './span.svelte';
+import type { MapArrow, MapLayer, MapWaypoint, Place, TrackPlace } from './types';
 
 const NEWEST_ARROWS = 60;
+const POINTS = 1500;
+/** With more the track is asked for anew, thinned. */
+const MOST_POINTS = 4000;
+const NEAR_DEG = 2e-4;
 
 export class MapContent {
-  track = $state.raw<Place[]>([]);
+  track = $state.raw<TrackPlace[]>([]);
+  /** From when to when the track goes, s since 1970; undefined where nothing is known. */
+  span = $state.raw<readonly [number, number] | undefined>(undefined);
+  /** Positions at which the vehicle cannot have been, which the station has left out. */
+  leftOut = $state(0);
   waypoints = $state.raw<MapWaypoint[]>([]);
   /** From waypoint to waypoint, once around. */
   route = $state.raw<Place[]>([]);
@@ -32,11 +42,18 @@ export class MapContent {
     };
     const ends = [
       live.onOpen(() => void this.load()),
-      live.on('mission', mine(() => this.loadMission())),
+      live.on('mission', mine(() => this.load())),
       live.on('dive', mine(() => this.loadDives())),
-      this.append(),
+      $effect.root(() => {
+        let first = true;
+        $effect(() => {
+          void trackSpan.chosen;
+          if (!first) untrack(() => void this.load());
+          first = false;
+        });
+      }),
     ];
-    void this.load();
+    untrack(() => void this.load());
     return () => ends.forEach((end) => end());
   }
 
@@ -51,26 +68,36 @@ export class MapContent {
     return this.key === this.vehicle ? undefined : clock.now(this.key);
   }
 
-  private append(): () => void {
-    return live.subscribe(this.key, ['latitude_deg', 'longitude_deg'], {
-      values: (values) => {
-        const [latitude, longitude] = [values['latitude_deg']?.[1], values['longitude_deg']?.[1]];
-        if (latitude === undefined || longitude === undefined) return;
-        const last = this.track.at(-1);
-        const far = !last || Math.abs(last.latitude - latitude) + Math.abs(last.longitude - longitude) > 2e-4;
-        if (far && this.track.length) this.track = [...this.track.slice(-4000), { latitude, longitude }];
-      },
-    });
+  /** Goes on with a position that the station has just told, which has sifted it. */
+  take(position: Position | null | undefined): void {
+    const last = this.track.at(-1);
+    if (!position || !last || !this.span || position.t <= last.t) return;
+    this.span = [this.span[0], position.t];
+    if (Math.abs(last.latitude - position.latitude) + Math.abs(last.longitude - position.longitude) <= NEAR_DEG) return;
+    const { latitude, longitude, t, sigma_m, source } = position;
+    this.track = [...this.track, { latitude, longitude, t, sigma_m, source }];
+    if (this.track.length > MOST_POINTS) void this.load();
+  }
+
+  /** From when to when the track goes, in words; empty where there is none. */
+  get words(): string {
+    if (!this.span || this.track.length < 2) return '';
+    const out = this.leftOut ? `, ${this.leftOut} impossible ${this.leftOut === 1 ? 'position' : 'positions'} left out` : '';
+    return spanWords(...this.span, clock.now(this.key)) + out;
   }
 
   private async loadTrack(): Promise<void> {
     const [end, load] = [this.until, this.loads];
-    const query = { points: 1500, end };
+    const query = { points: POINTS, end, span: trackSpan.chosen };
     const track = await api.get<Track>(`/vehicles/${this.vehicle}/track`, query).catch(() => undefined);
     if (!track || load !== this.loads) return;
-    this.track = track.latitude
-      .map((latitude, index) => ({ latitude, longitude: track.longitude[index] ?? NaN }))
-      .filter((place) => Number.isFinite(place.latitude) && Number.isFinite(place.longitude));
+    this.track = track.t.flatMap((t, index): TrackPlace[] => {
+      const [latitude, longitude] = [track.latitude[index], track.longitude[index]];
+      if (latitude === undefined || longitude === undefined) return [];
+      return [{ latitude, longitude, t, sigma_m: track.sigma_m[index] ?? null, source: track.source[index] ?? 'estimate' }];
+    });
+    this.span = [track.begin, track.end];
+    this.leftOut = track.left_out;
   }
 
   private async loadMission(): Promise<void> {

@@ -5,6 +5,16 @@ export interface Place {
   longitude: number;
 }
 
+/** Where a vehicle was, when, how surely, and from what that is known. */
+export interface TrackPlace extends Place {
+  /** s since 1970. */
+  t: number;
+  /** Standard deviation along one direction. */
+  sigma_m: number | null;
+  /** `gps` or `estimate`. */
+  source: string;
+}
+
 export interface MapVehicle extends Place {
   vehicle: number;
   name: string;

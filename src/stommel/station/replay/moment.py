@@ -9,6 +9,7 @@ from stommel.station.settings import VehicleSettings
 from stommel.station.vehicles.attached import last_dives
 from stommel.station.vehicles.summary import LAST_DIVES, Known, summary_of
 from stommel.station.vehicles.underway import Sample, Underway
+from stommel.station.vehicles.whereabouts import Whereabouts
 
 HEARD_FOR = 60.0
 """A vehicle counts as heard if something came of it so lately [s]."""
@@ -35,10 +36,13 @@ class Moment:
         self._settings, self._archive = settings, archive
         self._underway = Underway()
         self._underway.restore(archive, settings.vehicle, at)
+        self._whereabouts = Whereabouts()
+        self._whereabouts.restore(archive, settings.vehicle, at)
 
     def take(self, samples: Sequence[Sample]) -> None:
         """Take what the vehicle told next."""
         self._underway.take(samples)
+        self._whereabouts.take(samples)
 
     def summary(self, at: float, latest: Mapping[str, tuple[float, float]]) -> dict[str, Any]:
         """How the vehicle was at a time, out of the latest values until then; who held command then is left out."""
@@ -46,6 +50,7 @@ class Moment:
         known = Known(
             settings.vehicle, settings.title, settings.model, settings.is_simulated, settings.speed, at,
             _contact(at, latest), latest, self._dives(at), self._underway.left_surface, self._underway.approach,
+            self._whereabouts.last(),
         )  # fmt: skip
         return summary_of(known) | {"holder": None}
 

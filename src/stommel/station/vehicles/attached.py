@@ -9,13 +9,14 @@ from sqlalchemy import select
 
 from stommel.archive import Archive, Batch, DiveRow
 from stommel.archive.schema import dives
-from stommel.archive.times import microseconds
+from stommel.archive.times import GREATEST_TIME, microseconds
 from stommel.station.live.events import Happening, Samples, Summary
 from stommel.station.live.hub import Hub
 from stommel.station.settings import VehicleSettings
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.summary import Known, summary_of
 from stommel.station.vehicles.underway import Underway
+from stommel.station.vehicles.whereabouts import Whereabouts
 
 SUMMARY_EVERY = 1.0
 """Between two summaries [s]."""
@@ -50,6 +51,8 @@ class VehicleNews:
         self.vehicle = settings.vehicle
         self.underway = Underway()
         self.underway.restore(archive, self.vehicle)
+        self.whereabouts = Whereabouts()
+        self.whereabouts.restore(archive, self.vehicle, GREATEST_TIME)
         self._dives: deque[DiveRow] = deque(last_dives(archive, self.vehicle), maxlen=MOST_DIVES)
         self._told: dict[str, Any] = {}
         self._due = 0.0
@@ -59,6 +62,7 @@ class VehicleNews:
         now = line.clock.now()
         if batch.samples:
             self.underway.take(batch.samples)
+            self.whereabouts.take(batch.samples)
             self._hub.publish(Samples(self.vehicle, now, batch.samples))
         for dive in batch.dives:
             self._take_dive(dive)
@@ -94,7 +98,7 @@ class VehicleNews:
         known = Known(
             self.vehicle, settings.title, settings.model, settings.is_simulated, settings.speed, line.clock.now(),
             line.status(), self._hub.values(self.vehicle), tuple(self._dives), self.underway.left_surface,
-            self.underway.approach,
+            self.underway.approach, self.whereabouts.last(),
         )  # fmt: skip
         summary = summary_of(known)
         summary["holder"] = None

@@ -5,9 +5,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
 from stommel.archive import DiveRow
+from stommel.archive.whereabouts.dive_ends import with_true_ends
 from stommel.compilation import plain
 from stommel.geometry.earth import metres_per_radian
 from stommel.messages.mavlink import entry_words
+from stommel.station.vehicles.whereabouts import Told, position_of
 
 LAST_DIVES = 3
 """Whose mean duration tells when the vehicle surfaces next."""
@@ -61,6 +63,8 @@ class Known(NamedTuple):
     left_surface: float | None
     """When this dive began, where that was seen [s since 1970]."""
     approach: Approach | None
+    place: tuple[Told | None, str] = (None, "")
+    """Where it is, and why later positions are not believed."""
 
 
 def summary_of(known: Known) -> dict[str, Any]:
@@ -86,7 +90,7 @@ def summary_of(known: Known) -> dict[str, Any]:
         "last_contact": _last_contact(known), "link_reason": status.reason,
         "state": _words(latest, "state", "GLIDER_EXECUTIVE"), "phase": _words(latest, "phase", "GLIDER_PHASE"),
         "dive": _whole(latest, "dive"), "waypoint": _whole(latest, "waypoint"), "mission": _whole(latest, "mission"),
-        "alarms": _alarms(latest), "position": _position(latest), "battery": _battery(latest),
+        "alarms": _alarms(latest), "position": position_of(known.place), "battery": _battery(latest),
         "waypoint_distance_m": latest["waypoint_distance_m"][1] if "waypoint_distance_m" in latest else None,
     }  # fmt: skip
     found["next_surfacing"] = _next_surfacing(known, found["phase"], missing)
@@ -94,6 +98,8 @@ def summary_of(known: Known) -> dict[str, Any]:
     found["current"] = _current(known.dives, missing)
     found["eta"] = _eta(known, missing)
     found["missing"] = missing
+    if found["position"] is None and known.place[1]:
+        missing["position"] = known.place[1]
     for name, message in _TOLD.items():
         if found[name] is None and name not in missing:
             missing[name] = f"the vehicle has not told its {message} yet"
@@ -131,17 +137,6 @@ def _alarms(latest: Latest) -> list[dict[str, str]]:
         for bit, words in entry_words("GLIDER_ALARM").items()
         if bits & bit
     ]
-
-
-def _position(latest: Latest) -> dict[str, Any] | None:
-    if "latitude_deg" not in latest or "longitude_deg" not in latest:
-        return None
-    t, latitude = latest["latitude_deg"]
-    sigma = latest.get("position_sigma_m")
-    return {
-        "latitude": latitude, "longitude": latest["longitude_deg"][1], "t": t,
-        "sigma_m": None if sigma is None else sigma[1],
-    }  # fmt: skip
 
 
 def _battery(latest: Latest) -> dict[str, Any] | None:
@@ -182,7 +177,7 @@ def _next_surfacing(known: Known, phase: str | None, missing: dict[str, str]) ->
 
 
 def _speed_made_good(dives: Sequence[DiveRow], missing: dict[str, str]) -> dict[str, float] | None:
-    for dive in reversed(dives):
+    for dive in map(with_true_ends, reversed(dives)):
         places = (dive.latitude_begin, dive.longitude_begin, dive.latitude_end, dive.longitude_end)
         if _duration(dive) <= 0.0 or any(place is None for place in places):
             continue

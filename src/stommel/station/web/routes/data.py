@@ -15,8 +15,9 @@ from pydantic import BaseModel
 from sqlalchemy import select
 from starlette.background import BackgroundTask
 
-from stommel.archive import schema
+from stommel.archive import DiveRow, schema
 from stommel.archive.times import GREATEST_TIME as LATEST
+from stommel.archive.whereabouts.dive_ends import with_true_ends
 from stommel.data.files import csv_of_pieces, write_netcdf_pieces
 from stommel.data.variables import BY_NAME
 from stommel.data.water_masses import density_lines
@@ -285,8 +286,10 @@ def _utf8(pieces: Iterator[xr.Dataset]) -> Iterator[bytes]:
 
 
 def _dive(row: dict[str, Any]) -> Dive:
-    end = row.pop("t_end_us")
-    return Dive(t_begin=row.pop("t_begin_us") * 1e-6, t_end=None if end is None else end * 1e-6, **row)
+    end = row["t_end_us"]
+    rest = {name: row[name] for name in DiveRow._fields if name not in ("t_begin", "t_end")}
+    told = DiveRow(t_begin=row["t_begin_us"] * 1e-6, t_end=None if end is None else end * 1e-6, **rest)
+    return Dive(**with_true_ends(told)._asdict())
 
 
 def _margin(values: NDArray[np.float64]) -> tuple[float, float]:

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Path, Query
 
 from stommel.archive.times import GREATEST_TIME
+from stommel.archive.whereabouts.track import read_track
 from stommel.errors import FileError
 from stommel.files.sentences import validated
 from stommel.geometry.geodesics import Place
@@ -20,7 +21,6 @@ from stommel.plans.resolving import resolved
 from stommel.plans.templates import DEFAULT_START, place_row, templates
 from stommel.plans.way import first_outside
 from stommel.station.station import Station
-from stommel.station.track import read_track
 from stommel.station.web.access import Pilot, Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation, line_to

@@ -8,8 +8,9 @@ from pydantic import BaseModel
 
 from stommel.archive.series import FEWEST_POINTS, MOST_POINTS
 from stommel.archive.times import GREATEST_TIME
+from stommel.archive.whereabouts.span import TrackSpan, span_of
+from stommel.archive.whereabouts.track import read_track
 from stommel.station.channels import CHANNELS, channel_named
-from stommel.station.track import Track, read_track
 from stommel.station.web.access import Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation
@@ -46,11 +47,17 @@ class SeriesAnswer(BaseModel):
 class TrackAnswer(BaseModel):
     """Where a vehicle was [deg], how sure that is [m], and from what it is known: `gps` or `estimate`."""
 
+    begin: float
+    end: float
+    """The range over which it goes [s since 1970]."""
     t: list[float]
     latitude: list[float]
     longitude: list[float]
     sigma_m: list[float | None]
+    """Standard deviation along one direction."""
     source: list[str]
+    left_out: int
+    """Positions at which the vehicle cannot have been, as 0, 0 and leaps faster than 5 m/s; the archive keeps them."""
 
 
 class Sentence(BaseModel):
@@ -87,12 +94,25 @@ def show_series(
 
 @router.get("/vehicles/{vehicle}/track")
 def show_track(
-    _user: Viewer, line: Line, station: TheStation, begin: Time = None, end: Time = None, points: Points = 2000
+    _user: Viewer,
+    line: Line,
+    station: TheStation,
+    begin: Time = None,
+    end: Time = None,
+    points: Points = 2000,
+    span: TrackSpan = "day",
 ) -> TrackAnswer:
-    """Return where a vehicle was; the last day if no range is given."""
-    begin, end = _range(line.clock.now(), begin, end, 24.0 * HOUR)
-    found: Track = read_track(station.archive, line.vehicle, begin, end, points)
-    return TrackAnswer.model_validate(found._asdict())
+    """Return where a vehicle was; without a begin, over a span up to the last position before the end.
+
+    `day` is the last day of which positions are known, `mission` all of the mission that it held at the end and no
+    less than a day, `all` everything.
+    """
+    if begin is None:
+        begin, end = span_of(station.archive, line.vehicle, span, min(line.clock.now(), LAST) if end is None else end)
+    else:
+        begin, end = _range(line.clock.now(), begin, end)
+    found = read_track(station.archive, line.vehicle, begin, end, points)
+    return TrackAnswer.model_validate(found._asdict() | {"begin": begin, "end": end})
 
 
 @router.get("/vehicles/{vehicle}/texts")
@@ -110,9 +130,9 @@ def list_texts(
     return [Sentence.model_validate(each._asdict()) for each in found]
 
 
-def _range(now: float, begin: float | None, end: float | None, usual: float = HOUR) -> tuple[float, float]:
+def _range(now: float, begin: float | None, end: float | None) -> tuple[float, float]:
     end = min(now, LAST) if end is None else end
-    begin = max(FIRST, end - usual) if begin is None else begin
+    begin = max(FIRST, end - HOUR) if begin is None else begin
     if begin > end:
         raise refusal(422, "the range ends before it begins", key="end", value=end, allowed=f"at least {begin:g}")
     return begin, end

@@ -1,6 +1,6 @@
 """The vehicles of the station: how each is, its latest values, and its channels."""
 
-from typing import Any
+from typing import Any, Literal
 
 from fastapi import APIRouter
 from pydantic import BaseModel
@@ -27,14 +27,18 @@ class VehicleAlarm(BaseModel):
 
 
 class VehiclePosition(BaseModel):
-    """Where a vehicle is."""
+    """The last position that a vehicle told and at which it can have been."""
 
     latitude: float
     longitude: float
     t: float
     """When [s since 1970]."""
     sigma_m: float | None
-    """Standard deviation."""
+    """Standard deviation along one direction."""
+    source: Literal["gps", "estimate"]
+    """From what it is known."""
+    doubt: str | None
+    """Why a later one is not believed."""
 
 
 class Battery(BaseModel):

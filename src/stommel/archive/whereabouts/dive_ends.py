@@ -1,0 +1,24 @@
+"""The ends of dives, of those that can be true."""
+
+import numpy as np
+
+from stommel.archive.rows import DiveRow
+from stommel.archive.whereabouts.sift import ANYWAY, CERTAIN, FASTEST, SIGMA, is_nowhere, metres_apart
+
+
+def with_true_ends(dive: DiveRow) -> DiveRow:
+    """A dive without the ends at which the vehicle cannot have been: 0, 0, or further apart than it swims."""
+    begin, end = (dive.latitude_begin, dive.longitude_begin), (dive.latitude_end, dive.longitude_end)
+    wrong = {name for name, (a, b) in (("begin", begin), ("end", end)) if a is None or b is None or _is_nowhere(a, b)}
+    if not wrong and dive.t_end is not None:
+        ends = [np.array([value], dtype=np.float64) for value in (*begin, *end)]
+        far = float(metres_apart(*ends)[0])
+        if far > FASTEST * (dive.t_end - dive.t_begin) + ANYWAY + 2.0 * CERTAIN * SIGMA:
+            wrong = {"begin", "end"}
+    if "begin" in wrong:
+        dive = dive._replace(latitude_begin=None, longitude_begin=None)
+    return dive._replace(latitude_end=None, longitude_end=None) if "end" in wrong else dive
+
+
+def _is_nowhere(latitude: float, longitude: float) -> bool:
+    return bool(is_nowhere(np.array([latitude]), np.array([longitude]))[0])

@@ -1,0 +1,70 @@
+"""Where a vehicle was: its positions over time, as many as a map can show."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stommel.archive.archive import Archive
+from stommel.archive.reduction import Curve, largest_triangles
+from stommel.archive.whereabouts.sift import Places, believed
+from stommel.archive.whereabouts.told import told_places, value_before
+
+FRESH_FIX = 15.0
+"""A position is by GPS if its fix is no older [s]."""
+
+
+class Track(NamedTuple):
+    """Positions in the order of time [s since 1970]."""
+
+    t: list[float]
+    latitude: list[float]
+    """[deg]"""
+    longitude: list[float]
+    """[deg]"""
+    sigma_m: list[float | None]
+    source: list[str]
+    """`gps` or `estimate`."""
+    left_out: int
+    """Of the positions that were looked at, those at which the vehicle cannot have been."""
+
+
+def read_track(archive: Archive, vehicle: int, begin: float, end: float, points: int) -> Track:
+    """Read the positions of a vehicle in a range [s since 1970], about as many as are wanted.
+
+    Those are kept that the shape of latitude or of longitude over time needs, of those that can be true.
+
+    Raises
+    ------
+    ArchiveError
+        The archive fails.
+    """
+    told = told_places(archive, vehicle, begin, end)
+    can_be = believed(told)
+    kept = thinned(told.of(can_be), points)
+    age = value_before(archive, vehicle, "fix_age_s", begin, end, kept.t)
+    return Track(
+        kept.t.tolist(), kept.latitude.tolist(), kept.longitude.tolist(),
+        [None if np.isnan(each) else each for each in kept.sigma.tolist()],
+        [source_of(each) for each in age.tolist()],
+        int(np.count_nonzero(~can_be)),
+    )  # fmt: skip
+
+
+def source_of(fix_age: float | None) -> str:
+    """From what a position is known, by the time since the last fix [s]; it is an estimate if that is not told."""
+    return "gps" if fix_age is not None and fix_age <= FRESH_FIX else "estimate"
+
+
+def thinned(places: Places, points: int) -> Places:
+    """About so many of the positions, which draw the same track."""
+    if len(places.t) <= points:
+        return places
+    t_us = np.rint(places.t * 1e6).astype(np.int64)
+    none: NDArray[np.intp] = np.empty(0, dtype=np.intp)
+    over = np.unwrap(places.longitude, period=360.0)
+    kept = [
+        largest_triangles(Curve(t_us, value, len(t_us), 0.0), max(4, points // 2), none)
+        for value in (places.latitude, over)
+    ]
+    return places.of(np.unique(np.concatenate(kept)))

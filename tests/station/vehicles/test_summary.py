@@ -73,6 +73,21 @@ def test_next_surfacing_is_the_begin_of_the_dive_and_the_mean_of_the_last_three(
     assert "no dive is announced" in held["missing"]["next_surfacing"]
 
 
+def test_a_drift_at_depth_is_a_part_of_the_dive() -> None:
+    """In drift the vehicle hangs in the water (docs/guide/missions.md); the expected surfacing stays what it was."""
+    dives = (dive(1, NOW - 9000, 60),)
+    drifts = known({"phase": 5.0, "surface_time_left_s": 0.0}, dives, left_surface=NOW - 600.0)
+    assert summary_of(drifts)["next_surfacing"]["t"] == NOW - 600.0 + 3600.0
+    underway = Underway()
+    underway.take([("phase", NOW - 10, 0.0), ("waypoint", NOW - 10, 1.0), ("waypoint_distance_m", NOW - 10, 5000.0)])
+    underway.take(
+        [("phase", NOW, 1.0), ("phase", NOW + 500, 5.0), ("phase", NOW + 900, 2.0), ("phase", NOW + 901, 3.0)]
+    )
+    assert underway.left_surface == NOW
+    underway.take([("waypoint_distance_m", NOW + 1000, 4500.0)])
+    assert underway.approach == Approach(NOW - 10, 500.0 / 1010.0), "no drift begins a dive"
+
+
 def test_eta_is_the_distance_by_how_fast_it_becomes_less() -> None:
     near = known({"waypoint_distance_m": 3000.0}, approach=Approach(NOW - 5000.0, 0.5))
     assert summary_of(near)["eta"] == {"t": NOW - 30.0 + 6000.0}

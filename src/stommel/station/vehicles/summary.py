@@ -6,13 +6,14 @@ from typing import Any, NamedTuple, Protocol
 
 from stommel.archive import DiveRow
 from stommel.compilation import plain
+from stommel.control.dive_cycle import PHASES, RECOVERY, SURFACE
 from stommel.geometry.earth import metres_per_radian
 from stommel.messages.mavlink import entry_words
 
 LAST_DIVES = 3
 """Whose mean duration tells when the vehicle surfaces next."""
-AT_SURFACE = frozenset({"surface", "recovery", "drift"})
-"""Words of phases in which the vehicle lies at the surface."""
+AT_SURFACE = frozenset({PHASES[SURFACE], PHASES[RECOVERY]})
+"""Words of phases in which the vehicle lies at the surface; in drift it hangs in the water."""
 _ALARM_SEVERITY = "warning"
 MOST_AHEAD = 3.2e7
 """A year: beyond, nobody waits [s]."""

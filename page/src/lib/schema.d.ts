@@ -990,6 +990,8 @@ export interface components {
             share: number;
             samples: number;
             dives: number;
+            texts: number;
+            left_out: number;
             begin: number | null;
             end: number | null;
         };
@@ -1245,6 +1247,8 @@ export interface components {
             share: number;
             samples: number;
             dives: number;
+            texts: number;
+            left_out: number;
             begin: number | null;
             end: number | null;
             name: string;
@@ -1362,6 +1366,9 @@ export interface components {
                     number[]
                 ];
             };
+            periods: {
+                [key: string]: number;
+            };
         };
         Subscribe: {
             /**
@@ -1422,6 +1429,9 @@ export interface components {
                     number,
                     number
                 ];
+            };
+            periods: {
+                [key: string]: number;
             };
         };
     };

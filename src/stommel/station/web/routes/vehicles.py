@@ -248,7 +248,7 @@ def show_latest(_user: Viewer, line: Line, station: TheStation) -> Latest:
         channel = channel_named(key)
         if channel is None:
             continue
-        age, period = max(0.0, now - t), line.ingest.period_of(channel)
+        age, period = max(0.0, now - t), line.ingest.periods.of(channel)
         values[key] = LatestValue(t=t, value=value, age_s=age, period_s=period, stale=is_stale(age, period))
     return Latest(now=now, values=values)
 

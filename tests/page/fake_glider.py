@@ -107,11 +107,12 @@ def summary(vehicle: int, now: float, speed: float) -> dict[str, Any]:
         return {
             "vehicle": 2, "name": "Sea-Wing 12", "model": "seawing", "simulated": False, "speed": 1.0, "now": now,
             "heard": False, "link_reason": "waits for the first frame on serial /dev/ttyUSB0", "alarms": [],
-            **dict.fromkeys(empty), "missing": dict.fromkeys(empty, reason),
+            **dict.fromkeys(empty), "missing": dict.fromkeys(empty, reason), "told": {},
         }  # fmt: skip
     found = values(now)
     dive_begin = EPOCH + (found["dive"] - 1.0) * CYCLE_S
     up = dive_begin + DIVE_S
+    last = {"dive": int(found["dive"]) - 1, "t": dive_begin - SURFACE_S}
     return {
         "vehicle": 1, "name": "ZJU glider", "model": "zju", "simulated": True, "speed": speed, "now": now,
         "heard": True, "last_contact": now - 3.0, "link_reason": None, "state": STATES[int(found["state"])],
@@ -125,8 +126,9 @@ def summary(vehicle: int, now: float, speed: float) -> dict[str, Any]:
         "next_surfacing": {"t": up, "why": f"end of dive {int(found['dive'])} as the last dives went"}
         if now < up
         else None,
-        "speed_made_good": {"m_s": 0.29, "course_deg": 112.0},
-        "current": {"north_m_s": 0.06, "east_m_s": 0.17, "dive": int(found["dive"]) - 1},
+        "speed_made_good": {"m_s": 0.29, "course_deg": 112.0, **last},
+        "current": {"north_m_s": 0.06, "east_m_s": 0.17, **last},
+        "told": dict.fromkeys(("state", "phase", "dive", "waypoint", "mission", "waypoint_distance_m"), now - 3.0),
         "waypoint_distance_m": found["waypoint_distance_m"], "eta": {"t": now + found["waypoint_distance_m"] / 0.29},
         "missing": {} if now < up else {"next_surfacing": "it is at the surface"}, "holder": "anna",
     }  # fmt: skip

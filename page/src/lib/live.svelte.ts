@@ -1,7 +1,7 @@
 // The live socket: comes back by itself, and takes its subscriptions with it.
 
 import { clock } from './clock.svelte';
-import type { EventKind, LiveMessage, LiveRequest, StationEvent, VehicleKey, VehicleSummary } from './types';
+import type { Channel, EventKind, LiveMessage, LiveRequest, StationEvent, VehicleKey, VehicleSummary } from './types';
 
 export type LinkState = 'connecting' | 'open' | 'lost';
 export type Values = Extract<LiveMessage, { type: 'values' }>['values'];
@@ -33,6 +33,8 @@ class Live {
   /** performance.now() of the moment in which the socket was lost. */
   lostAt = $state<number | undefined>(undefined);
   summaries = $state.raw<Record<string, VehicleSummary>>({});
+  /** Usual time between two values, s, by vehicle or replay and by channel. */
+  private periods = $state.raw<Record<string, Record<string, number>>>({});
   private socket: WebSocket | undefined;
   private subscriptions = new Map<string, Subscription>();
   private handlers = new Map<string, Set<(event: StationEvent) => void>>();
@@ -93,6 +95,11 @@ class Live {
   onOpen(handler: () => void): () => void {
     this.whenOpen.add(handler);
     return () => this.whenOpen.delete(handler);
+  }
+
+  /** Usual time between two values of a channel, s: as they come, or as the table of channels says. */
+  period_s(vehicle: VehicleKey, channel: Channel): number {
+    return this.periods[vehicle]?.[channel.key] ?? channel.period_s;
   }
 
   /** Takes over a summary that came another way. */
@@ -159,6 +166,7 @@ class Live {
     this.listen();
     const message = JSON.parse(text) as LiveMessage;
     if ('vehicle' in message && message.vehicle !== null && 'now' in message) clock.tell(message.vehicle, message.now);
+    if ('periods' in message) this.learn(message.vehicle, message.periods);
     const listener = 'id' in message ? this.subscriptions.get(message.id)?.listener : undefined;
     if (message.type === 'values') listener?.values?.(message.values, message.now);
     else if (message.type === 'samples') listener?.samples?.(message.samples, message.now);
@@ -167,6 +175,11 @@ class Live {
     else if (message.type === 'hello') this.greet(message.vehicles);
     else if (message.type === 'summary') this.put(message.summary);
     else if (message.type === 'event') this.handlers.get(message.kind)?.forEach((handler) => handler(message));
+  }
+
+  private learn(vehicle: VehicleKey, periods: Record<string, number>): void {
+    if (Object.keys(periods).length === 0) return;
+    this.periods = { ...this.periods, [vehicle]: { ...this.periods[vehicle], ...periods } };
   }
 
   private refused(id: string, reason: string): void {

@@ -170,6 +170,7 @@ export interface components {
             north_m_s: number;
             east_m_s: number;
             dive: number;
+            t: number;
         };
         Curve: {
             t: number[];
@@ -856,6 +857,8 @@ export interface components {
         SpeedMadeGood: {
             m_s: number;
             course_deg: number;
+            dive: number;
+            t: number;
         };
         StartedJob: {
             job: string;
@@ -1103,6 +1106,9 @@ export interface components {
             missing: {
                 [key: string]: string;
             };
+            told: {
+                [key: string]: number;
+            };
             holder: string | null;
             channels: components["schemas"]["ChannelInfo"][];
             limits: components["schemas"]["Limit"][];
@@ -1142,6 +1148,9 @@ export interface components {
             eta: components["schemas"]["Moment"] | null;
             missing: {
                 [key: string]: string;
+            };
+            told: {
+                [key: string]: number;
             };
             holder: string | null;
         };
@@ -1372,6 +1381,9 @@ export interface components {
                     number[]
                 ];
             };
+            periods: {
+                [key: string]: number;
+            };
         };
         Subscribe: {
             /**
@@ -1432,6 +1444,9 @@ export interface components {
                     number,
                     number
                 ];
+            };
+            periods: {
+                [key: string]: number;
             };
         };
     };

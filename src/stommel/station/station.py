@@ -131,7 +131,7 @@ class Station:
         self.archive.know(number, settings.title, settings.model)
         news = VehicleNews(settings, self.archive, self.hub, self._complete)
         line = VehicleLine(settings, self.settings.folder, self.archive, self._committed)
-        self.hub.open(number, line.clock.now, self.archive.latest(number))
+        self.hub.open(number, line.clock.now, self.archive.latest(number), line.ingest.periods.of_key)
         line.tellers.append(news)
         self.commands.follow(line)
         self.parameters.follow(line)

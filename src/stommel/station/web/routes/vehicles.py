@@ -63,10 +63,13 @@ class Moment(BaseModel):
 
 
 class SpeedMadeGood(BaseModel):
-    """Of the last dive, over ground."""
+    """Of the last dive that has a position at both ends, over ground."""
 
     m_s: float
     course_deg: float
+    dive: int
+    t: float
+    """When that dive ended [s since 1970]."""
 
 
 class Current(BaseModel):
@@ -75,6 +78,8 @@ class Current(BaseModel):
     north_m_s: float
     east_m_s: float
     dive: int
+    t: float
+    """When that dive ended [s since 1970]."""
 
 
 class VehicleSummary(BaseModel):
@@ -83,7 +88,7 @@ class VehicleSummary(BaseModel):
     Times are of its clock, which goes `speed` times as fast as ours.
 
     - `next_surfacing`: start of this dive, or of the next one, and the mean duration of the last three dives.
-    - `speed_made_good`: between the positions at the begin and the end of the last dive, over ground.
+    - `speed_made_good`: between the positions at the begin and the end of the last dive that has both, over ground.
     - `current`: depth-averaged, of the last dive that has one, from its drift.
     - `eta`: distance to the waypoint by the rate at which it has become less since the last dive began.
     """
@@ -111,6 +116,8 @@ class VehicleSummary(BaseModel):
     waypoint_distance_m: float | None
     eta: Moment | None
     missing: dict[str, str]
+    told: dict[str, float]
+    """When the vehicle told those that do not say it themselves, by name [s since 1970]."""
     holder: str | None
 
 
@@ -252,7 +259,7 @@ def show_latest(_user: Viewer, line: Line, station: TheStation) -> Latest:
         channel = channel_named(key)
         if channel is None:
             continue
-        age, period = max(0.0, now - t), line.ingest.period_of(channel)
+        age, period = max(0.0, now - t), line.ingest.periods.of(channel)
         values[key] = LatestValue(t=t, value=value, age_s=age, period_s=period, stale=is_stale(age, period))
     return Latest(now=now, values=values)
 

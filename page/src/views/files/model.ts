@@ -32,7 +32,10 @@ export function shareOf(transfer: Transfer): number | null {
 /** What a transfer is doing, in words. */
 export function transferWords(transfer: Transfer): string {
   const state = plainState(transfer.state);
-  if (transfer.is_over) return transfer.reason ? `${state}: ${transfer.reason}` : state;
+  if (transfer.is_over) {
+    if (transfer.reason.startsWith(state)) return transfer.reason;
+    return transfer.reason ? `${state}: ${transfer.reason}` : state;
+  }
   if (transfer.is_paused) return 'paused; goes on where it was';
   if (state === 'going') return transfer.reason || (transfer.direction === 'upload' ? 'is being sent' : 'is being fetched');
   return transfer.reason || state;

@@ -51,7 +51,7 @@ def read_track(archive: Archive, vehicle: int, begin: float, end: float, points:
     latitude = _values_at(archive, vehicle, "latitude_deg", times)
     longitude = _values_at(archive, vehicle, "longitude_deg", times)
     both = [t for t in _micro(times) if t in latitude and t in longitude]
-    at = np.array(both, dtype=np.float64) / 1e6
+    at = seconds(np.array(both, dtype=np.int64))
     sigma = _before(archive, vehicle, "position_sigma_m", begin, end, at)
     age = _before(archive, vehicle, "fix_age_s", begin, end, at)
     return Track(

@@ -6,7 +6,7 @@ from sqlalchemy import select
 
 from stommel.archive import schema
 from stommel.archive.archive import Archive
-from stommel.archive.times import MINUTE_US
+from stommel.archive.times import MINUTE_US, seconds
 
 FARTHEST = 7200.0
 """Time from a sample to a position, over which none is made up [s]."""
@@ -26,7 +26,7 @@ def positions(archive: Archive, vehicle: int, time: Array) -> tuple[Array, Array
     both, at, also = np.intersect1d(latitudes[0], longitudes[0], return_indices=True)
     if not both.size:
         return np.full(time.size, np.nan), np.full(time.size, np.nan)
-    stamps = both * 1e-6
+    stamps = seconds(both)
     latitude = np.interp(time, stamps, latitudes[1][at])
     unwrapped = np.unwrap(longitudes[1][also], period=360.0)  # over the date line
     longitude = (np.interp(time, stamps, unwrapped) + 180.0) % 360.0 - 180.0

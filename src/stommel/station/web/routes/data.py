@@ -17,6 +17,7 @@ from starlette.background import BackgroundTask
 
 from stommel.archive import schema
 from stommel.archive.times import GREATEST_TIME as LATEST
+from stommel.archive.times import microseconds, seconds
 from stommel.data.files import csv_of_pieces, write_netcdf_pieces
 from stommel.data.variables import BY_NAME
 from stommel.data.water_masses import density_lines
@@ -159,7 +160,7 @@ def read_dives(line: Line, station: TheStation, _user: Viewer, begin: Begin = 0.
     with station.archive.reading() as connection:
         rows = connection.execute(
             select(schema.dives)
-            .where((d.vehicle_id == line.vehicle) & (d.t_begin_us >= begin * 1e6) & (d.t_begin_us <= end * 1e6))
+            .where((d.vehicle_id == line.vehicle) & d.t_begin_us.between(microseconds(begin), microseconds(end)))
             .order_by(d.t_begin_us)
         ).mappings()
         return [_dive(dict(row)) for row in rows]
@@ -286,7 +287,7 @@ def _utf8(pieces: Iterator[xr.Dataset]) -> Iterator[bytes]:
 
 def _dive(row: dict[str, Any]) -> Dive:
     end = row.pop("t_end_us")
-    return Dive(t_begin=row.pop("t_begin_us") * 1e-6, t_end=None if end is None else end * 1e-6, **row)
+    return Dive(t_begin=seconds(row.pop("t_begin_us")), t_end=None if end is None else seconds(end), **row)
 
 
 def _margin(values: NDArray[np.float64]) -> tuple[float, float]:

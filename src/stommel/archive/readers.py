@@ -7,7 +7,7 @@ from sqlalchemy import Connection, Row, Select, func, select
 
 from stommel.archive.errors import ArchiveRequestError
 from stommel.archive.rows import CtdRow, DiveRow, FrameRow, TextRow
-from stommel.archive.schema import channels, ctd, dives, frames, samples, texts
+from stommel.archive.schema import ctd, dives, frames, texts
 from stommel.archive.times import GREATEST_TIME, microseconds, seconds
 
 MOST_ROWS = 10_000
@@ -64,18 +64,6 @@ def frames_between(connection: Connection, vehicle: int, begin: float, end: floa
     query = select(frames).where(of.vehicle_id == vehicle, of.t_us.between(microseconds(begin), microseconds(end)))
     for row in _many(connection, query.order_by(of.t_us, of.id)):
         yield _frame(row)
-
-
-def samples_between(
-    connection: Connection, vehicle: int, begin: float, end: float
-) -> Iterator[tuple[str, float, float]]:
-    """Key, time and value of every sample from `begin` to `end`, channel by channel in order of their keys."""
-    of = samples.c
-    for number, key in connection.execute(select(channels.c.id, channels.c.key).order_by(channels.c.key)).all():
-        query = select(of.t_us, of.value).where(of.vehicle_id == vehicle, of.channel_id == number)
-        query = query.where(of.t_us.between(microseconds(begin), microseconds(end))).order_by(of.t_us)
-        for t_us, value in _many(connection, query):
-            yield key, seconds(t_us), value
 
 
 def stored_texts(

@@ -29,6 +29,8 @@ LEAST_ROLES: dict[tuple[str, str], str] = {
     ("GET", f"{V}/latest"): VIEWER,
     ("GET", f"{V}/channels"): VIEWER,
     ("GET", f"{V}/series"): VIEWER,
+    ("GET", f"{V}/telemetry.csv"): VIEWER,
+    ("GET", f"{V}/telemetry.nc"): VIEWER,
     ("GET", f"{V}/track"): VIEWER,
     ("GET", f"{V}/texts"): VIEWER,
     ("GET", f"{V}/states"): VIEWER,

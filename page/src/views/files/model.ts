@@ -1,7 +1,7 @@
 /** Files of a vehicle and their transfers, as the page shows them. */
 
 import type { StoredLog, Transfer } from '../../lib/types';
-import { bytes } from '../../lib/units';
+import { bytes, counted } from '../../lib/units';
 import { plainState, type Tone } from '../commands/model';
 
 export type { FolderEntry as Entry, StoredFile, Transfer } from '../../lib/types';
@@ -15,12 +15,6 @@ export function logWords(log: Omit<StoredLog, 'begin' | 'end'>): string {
   if (log.left_out > 0) found.push(`${counted(log.left_out, 'row')} left out, which no archive takes`);
   const told = `in the archive: ${found.join(', ')}`;
   return log.words.startsWith('whole') ? told : `${told}; ${log.words}`;
-}
-
-/** A number of things, its thousands apart. */
-export function counted(count: number, thing: string): string {
-  const digits = String(count).replace(/\B(?=(\d{3})+$)/g, '\u202f');
-  return `${digits} ${thing}${count === 1 ? '' : 's'}`;
 }
 
 /** How much of a file is there, 0 to 1; null before its size is known. */

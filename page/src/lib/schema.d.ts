@@ -990,6 +990,8 @@ export interface components {
             share: number;
             samples: number;
             dives: number;
+            texts: number;
+            left_out: number;
             begin: number | null;
             end: number | null;
         };
@@ -1067,10 +1069,15 @@ export interface components {
             password?: string | null;
         };
         VehicleAlarm: {
+            id: number | null;
+            vehicle: number | null;
             key: string;
             words: string;
             /** @enum {string} */
             severity: "notice" | "warning" | "critical";
+            raised: number | null;
+            acknowledged: number | null;
+            acknowledged_by: string | null;
         };
         VehicleDetail: {
             vehicle: number;
@@ -1245,6 +1252,8 @@ export interface components {
             share: number;
             samples: number;
             dives: number;
+            texts: number;
+            left_out: number;
             begin: number | null;
             end: number | null;
             name: string;

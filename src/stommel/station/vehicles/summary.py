@@ -13,7 +13,6 @@ LAST_DIVES = 3
 """Whose mean duration tells when the vehicle surfaces next."""
 AT_SURFACE = frozenset({"surface", "recovery", "drift"})
 """Words of phases in which the vehicle lies at the surface."""
-_ALARM_SEVERITY = "warning"
 MOST_AHEAD = 3.2e7
 """A year: beyond, nobody waits [s]."""
 
@@ -64,7 +63,7 @@ class Known(NamedTuple):
 
 
 def summary_of(known: Known) -> dict[str, Any]:
-    """Return how a vehicle is.
+    """Return how a vehicle is; its alarms and who holds command are told by those who know them.
 
     next_surfacing
         The start of this dive, or of the next one, which follows after the time at the surface that the vehicle tells,
@@ -86,7 +85,7 @@ def summary_of(known: Known) -> dict[str, Any]:
         "last_contact": _last_contact(known), "link_reason": status.reason,
         "state": _words(latest, "state", "GLIDER_EXECUTIVE"), "phase": _words(latest, "phase", "GLIDER_PHASE"),
         "dive": _whole(latest, "dive"), "waypoint": _whole(latest, "waypoint"), "mission": _whole(latest, "mission"),
-        "alarms": _alarms(latest), "position": _position(latest), "battery": _battery(latest),
+        "position": _position(latest), "battery": _battery(latest),
         "waypoint_distance_m": latest["waypoint_distance_m"][1] if "waypoint_distance_m" in latest else None,
     }  # fmt: skip
     found["next_surfacing"] = _next_surfacing(known, found["phase"], missing)
@@ -122,15 +121,6 @@ def _whole(latest: Latest, key: str) -> int | None:
 def _words(latest: Latest, key: str, enumeration: str) -> str | None:
     number = _whole(latest, key)
     return None if number is None else entry_words(enumeration).get(number, f"{key} {number}")
-
-
-def _alarms(latest: Latest) -> list[dict[str, str]]:
-    bits = _whole(latest, "vehicle_alarms") or 0
-    return [
-        {"key": words.replace(" ", "_"), "words": words, "severity": _ALARM_SEVERITY}
-        for bit, words in entry_words("GLIDER_ALARM").items()
-        if bits & bit
-    ]
 
 
 def _position(latest: Latest) -> dict[str, Any] | None:

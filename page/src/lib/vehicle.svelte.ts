@@ -11,12 +11,13 @@ export class VehicleInfo {
   shape = $state.raw<Shape | null>(null);
   loaded = $state(false);
   reason = $state<string | undefined>(undefined);
+  private isLoading = false;
 
   constructor(vehicle: number) {
     this.vehicle = vehicle;
     void this.load();
     live.onOpen(() => {
-      if (!this.loaded) void this.load();
+      if (!this.isLoading) void this.load();
     });
     live.on('limit', (event) => {
       if (event.vehicle === vehicle) void this.load();
@@ -28,9 +29,10 @@ export class VehicleInfo {
   }
 
   async load(): Promise<void> {
+    this.isLoading = true;
     try {
       const detail = await api.get<VehicleDetail>(`/vehicles/${this.vehicle}`);
-      live.put(detail);
+      if (live.state !== 'open') live.put(detail);
       this.channels = detail.channels ?? (await api.get<Channel[]>(`/vehicles/${this.vehicle}/channels`));
       this.limits = byChannel(detail.limits ?? []);
       this.shape = detail.shape ?? (await api.get<Shape>(`/vehicles/${this.vehicle}/shape`).catch(() => null));
@@ -39,6 +41,7 @@ export class VehicleInfo {
     } catch (error) {
       this.reason = sentence(error);
     }
+    this.isLoading = false;
   }
 }
 

@@ -33,9 +33,9 @@ export class VehicleInfo {
     try {
       const detail = await api.get<VehicleDetail>(`/vehicles/${this.vehicle}`);
       if (live.state !== 'open') live.put(detail);
-      this.channels = detail.channels ?? (await api.get<Channel[]>(`/vehicles/${this.vehicle}/channels`));
+      this.channels = same(this.channels, detail.channels ?? (await api.get<Channel[]>(`/vehicles/${this.vehicle}/channels`)));
       this.limits = byChannel(detail.limits ?? []);
-      this.shape = detail.shape ?? (await api.get<Shape>(`/vehicles/${this.vehicle}/shape`).catch(() => null));
+      this.shape = same(this.shape, detail.shape ?? (await api.get<Shape>(`/vehicles/${this.vehicle}/shape`).catch(() => null)));
       this.loaded = true;
       this.reason = undefined;
     } catch (error) {
@@ -43,6 +43,11 @@ export class VehicleInfo {
     }
     this.isLoading = false;
   }
+}
+
+/** What was known before, where what is found is equal to it: nobody who looks at it has to look again. */
+function same<T>(known: T, found: T): T {
+  return JSON.stringify(known) === JSON.stringify(found) ? known : found;
 }
 
 function byChannel(limits: Limit[] | Record<string, Limit>): Record<string, Limit> {

@@ -117,7 +117,8 @@ def summary(vehicle: int, now: float, speed: float) -> dict[str, Any]:
         "vehicle": 1, "name": "ZJU glider", "model": "zju", "simulated": True, "speed": speed, "now": now,
         "heard": True, "last_contact": now - 3.0, "link_reason": None, "state": STATES[int(found["state"])],
         "phase": PHASES[int(found["phase"])], "dive": int(found["dive"]), "waypoint": 2, "mission": "east china sea",
-        "alarms": [{"key": "position_sigma_m", "words": "the position may be wrong by 380 m", "severity": "caution"}]
+        "alarms": [{"id": 1, "vehicle": 1, "key": "position_sigma_m", "words": "the position may be wrong by 380 m",
+                    "severity": "warning", "raised": dive_begin, "acknowledged": None, "acknowledged_by": None}]
         if found["position_sigma_m"] > 200.0
         else [],
         "position": {"latitude": found["latitude_deg"], "longitude": found["longitude_deg"], "t": now - 3.0,

@@ -9,7 +9,7 @@ import pytest
 
 from tests.page import fake_glider as glider
 from tests.page.past import Past
-from tests.page.played import NOW, PlayedStation
+from tests.page.played_station import NOW, PlayedStation
 from tests.page.waiting import becomes, until
 
 HOURS = 5

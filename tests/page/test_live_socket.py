@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from tests.page import fake_glider as glider
-from tests.page.played import NOW, PlayedStation
+from tests.page.played_station import NOW, PlayedStation
 from tests.page.waiting import until
 
 

@@ -1,6 +1,6 @@
 // The live socket: comes back by itself, and takes its subscriptions with it.
 
-import { clock } from './clock.svelte';
+import { clock, STATION } from './clock.svelte';
 import type { Channel, EventKind, LiveMessage, LiveRequest, StationEvent, VehicleKey, VehicleSummary } from './types';
 
 export type LinkState = 'connecting' | 'open' | 'lost';
@@ -91,7 +91,10 @@ class Live {
     return () => set.delete(known);
   }
 
-  /** Calls back whenever the station greets, also after a loss: the clock is known then, and lists that grow by events are to be asked for again. */
+  /**
+   * Calls back whenever the station greets, also after a loss, and when it says that events were lost: the clock is known
+   * then, and lists that grow by events are to be asked for again.
+   */
   onOpen(handler: () => void): () => void {
     this.whenOpen.add(handler);
     return () => this.whenOpen.delete(handler);
@@ -170,9 +173,12 @@ class Live {
     const listener = 'id' in message ? this.subscriptions.get(message.id)?.listener : undefined;
     if (message.type === 'values') listener?.values?.(message.values, message.now);
     else if (message.type === 'samples') listener?.samples?.(message.samples, message.now);
-    else if (message.type === 'gap') listener?.gap?.('from' in message ? message.from : undefined);
+    else if (message.type === 'gap') {
+      if ('from' in message) listener?.gap?.(message.from);
+      else this.whenOpen.forEach((handler) => handler());
+    }
     else if (message.type === 'error') this.refused(message.id, message.reason);
-    else if (message.type === 'hello') this.greet(message.vehicles);
+    else if (message.type === 'hello') this.greet(message);
     else if (message.type === 'summary') this.put(message.summary);
     else if (message.type === 'event') this.handlers.get(message.kind)?.forEach((handler) => handler(message));
   }
@@ -188,7 +194,8 @@ class Live {
     listener?.error?.(reason);
   }
 
-  private greet(vehicles: VehicleSummary[]): void {
+  private greet({ now, vehicles }: Extract<LiveMessage, { type: 'hello' }>): void {
+    clock.tell(STATION, now, 1);
     const summaries: Record<string, VehicleSummary> = {};
     for (const summary of vehicles) {
       clock.tell(summary.vehicle, summary.now, summary.speed);

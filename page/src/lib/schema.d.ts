@@ -1075,10 +1075,15 @@ export interface components {
             password?: string | null;
         };
         VehicleAlarm: {
+            id: number | null;
+            vehicle: number | null;
             key: string;
             words: string;
             /** @enum {string} */
             severity: "notice" | "warning" | "critical";
+            raised: number | null;
+            acknowledged: number | null;
+            acknowledged_by: string | null;
         };
         VehicleDetail: {
             vehicle: number;

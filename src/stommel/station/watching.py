@@ -58,10 +58,10 @@ def contact_of(summary: Mapping[str, Any]) -> Contact:
     )
 
 
-def open_alarms(alarms: StationAlarms, vehicle: int) -> list[dict[str, str]]:
+def open_alarms(alarms: StationAlarms, vehicle: int) -> list[dict[str, Any]]:
     """Open alarms of a vehicle, and of the station itself, as the summary tells them, the worst first."""
     found = sorted([*alarms.open_of(vehicle), *alarms.open_of(None)], key=lambda alarm: -RANK[alarm.severity])
-    return [{"key": alarm.key, "words": alarm.words, "severity": alarm.severity} for alarm in found]
+    return [alarm.as_brief() for alarm in found]
 
 
 @cache

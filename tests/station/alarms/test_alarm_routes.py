@@ -91,6 +91,10 @@ def test_a_vehicle_too_deep_raises_an_alarm_that_somebody_acknowledges(
     assert again["reason"] == f"alarm {number}: local has acknowledged it already"
     assert client.refused("POST", "/alarms/999/acknowledge", 404, json={})["key"] == "alarm"
     assert [row["key"] for row in client.get("/alarms", acknowledged=False)] == ["vehicle:too deep"]
+    briefs = {brief["key"]: brief for brief in client.get("/vehicles")[0]["alarms"]}
+    for key, row in (("limit:depth_m:high", seen), ("vehicle:too deep", rows["vehicle:too deep"])):
+        assert briefs[key] == {name: row[name] for name in briefs[key]}, "a summary tells what the row says"
+    assert briefs["limit:depth_m:high"]["acknowledged_by"] == "local"
 
     vehicle.say("GLIDER_STATE", time_boot_ms=2, depth=20.0, alarms=0)
     until(lambda: client.get("/alarms", open=True) == [])

@@ -16,7 +16,6 @@ LAST_DIVES = 3
 """Whose mean duration tells when the vehicle surfaces next."""
 AT_SURFACE = frozenset({PHASES[SURFACE], PHASES[RECOVERY]})
 """Words of phases in which the vehicle lies at the surface; in drift it hangs in the water."""
-_ALARM_SEVERITY = "warning"
 MOST_AHEAD = 3.2e7
 """A year: beyond, nobody waits [s]."""
 
@@ -69,7 +68,7 @@ class Known(NamedTuple):
 
 
 def summary_of(known: Known) -> dict[str, Any]:
-    """Return how a vehicle is.
+    """Return how a vehicle is; its alarms and who holds command are told by those who know them.
 
     next_surfacing
         The start of this dive, or of the next one, which follows after the time at the surface that the vehicle tells,
@@ -92,7 +91,7 @@ def summary_of(known: Known) -> dict[str, Any]:
         "last_contact": _last_contact(known), "link_reason": status.reason,
         "state": _words(latest, "state", "GLIDER_EXECUTIVE"), "phase": _words(latest, "phase", "GLIDER_PHASE"),
         "dive": _whole(latest, "dive"), "waypoint": _whole(latest, "waypoint"), "mission": _whole(latest, "mission"),
-        "alarms": _alarms(latest), "position": position_of(known.place), "battery": _battery(latest),
+        "position": position_of(known.place), "battery": _battery(latest),
         "waypoint_distance_m": latest["waypoint_distance_m"][1] if "waypoint_distance_m" in latest else None,
     }  # fmt: skip
     found["next_surfacing"] = _next_surfacing(known, found["phase"], missing)
@@ -135,13 +134,6 @@ def _words(latest: Latest, key: str, enumeration: str) -> str | None:
     return None if number is None else entry_words(enumeration).get(number, f"{key} {number}")
 
 
-def _alarms(latest: Latest) -> list[dict[str, str]]:
-    bits = _whole(latest, "vehicle_alarms") or 0
-    return [
-        {"key": words.replace(" ", "_"), "words": words, "severity": _ALARM_SEVERITY}
-        for bit, words in entry_words("GLIDER_ALARM").items()
-        if bits & bit
-    ]
 
 
 def _battery(latest: Latest) -> dict[str, Any] | None:

@@ -19,11 +19,19 @@ router = APIRouter(prefix="/api", tags=["vehicles"])
 
 
 class VehicleAlarm(BaseModel):
-    """An alarm that is raised."""
+    """An alarm that is raised; times are those of the vehicle's clock [s since 1970]."""
 
+    id: int | None
+    """Null while the archive has not taken it."""
+    vehicle: int | None
+    """Null: of the station itself, whose clock then tells the times; each vehicle's summary has it."""
     key: str
     words: str
     severity: Severity
+    raised: float | None
+    """Null where the vehicle told of it in a past of which the station kept no alarm."""
+    acknowledged: float | None
+    acknowledged_by: str | None
 
 
 class VehiclePosition(BaseModel):

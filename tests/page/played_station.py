@@ -1,4 +1,4 @@
-"""A station whose live socket the test plays, message by message."""
+"""A station whose live socket a test plays message by message."""
 
 import json
 import re
@@ -15,6 +15,8 @@ class PlayedStation:
     def __init__(self, page: Any) -> None:
         self.sockets: list[Any] = []
         self.asked: list[list[dict[str, Any]]] = []
+        self.alarms: dict[int, list[dict[str, Any]]] = {}
+        """By vehicle, what a summary says of open alarms."""
         self._told: dict[str, tuple[float, float, float]] = {}
         page.route_web_socket(re.compile("/api/live$"), self._open)
 
@@ -24,8 +26,19 @@ class PlayedStation:
         self.asked.append(asked)
         self._told.clear()
         socket.on_message(lambda text: self._hear(asked, json.loads(text)))
-        hello = [glider.summary(1, NOW, 20.0), glider.summary(2, NOW, 1.0)]
-        socket.send(json.dumps({"type": "hello", "now": NOW, "vehicles": hello}))
+        socket.send(json.dumps({"type": "hello", "now": NOW, "vehicles": [self._summary(1), self._summary(2)]}))
+
+    def _summary(self, vehicle: int) -> dict[str, Any]:
+        summary = glider.summary(vehicle, NOW, 20.0 if vehicle == 1 else 1.0)
+        return summary | {"alarms": self.alarms.get(vehicle, [])}
+
+    def say(self, message: dict[str, Any]) -> None:
+        """Say something on the present socket."""
+        self.sockets[-1].send(json.dumps(message))
+
+    def sum_up(self, vehicle: int) -> None:
+        """Say how a vehicle is now."""
+        self.say({"type": "summary", "vehicle": vehicle, "summary": self._summary(vehicle)})
 
     def _hear(self, asked: list[dict[str, Any]], message: dict[str, Any]) -> None:
         asked.append(message)
@@ -35,11 +48,13 @@ class PlayedStation:
 
     def _say(self, identity: str, channel: str, periods: dict[str, float] | None = None) -> None:
         t, value, now = self._told[channel]
-        message = {
-            "type": "values", "id": identity, "vehicle": 1, "now": now, "values": {channel: [t, value]},
-            "periods": periods or {},
-        }  # fmt: skip
-        self.sockets[-1].send(json.dumps(message))
+        values = {channel: [t, value]}
+        self.say(
+            {
+                "type": "values", "id": identity, "vehicle": 1, "now": now, "values": values,
+                "periods": periods or {},
+            }
+        )  # fmt: skip
 
     def ids(self, channel: str) -> list[str]:
         """Subscriptions of the present socket that hold a channel."""

@@ -451,8 +451,9 @@ export interface components {
             name: string;
             sha256: string;
             /** @enum {string} */
-            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted";
+            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted" | "cancelled" | "superseded" | "expired";
             words: string;
+            expires: number | null;
         };
         MissionAboard: {
             number: number | null;
@@ -466,6 +467,7 @@ export interface components {
             depth_m: number | null;
             mission: components["schemas"]["Mission"] | null;
             upload: components["schemas"]["MissionOnItsWay"] | null;
+            roll_back: components["schemas"]["RollBackOnItsWay"] | null;
             waiting: number;
         };
         MissionDetail: {
@@ -476,8 +478,9 @@ export interface components {
             name: string;
             sha256: string;
             /** @enum {string} */
-            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted";
+            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted" | "cancelled" | "superseded" | "expired";
             words: string;
+            expires: number | null;
             orders: string;
             plan: {
                 [key: string]: unknown;
@@ -492,8 +495,9 @@ export interface components {
             name: string;
             sha256: string;
             /** @enum {string} */
-            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted";
+            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted" | "cancelled" | "superseded" | "expired";
             words: string;
+            expires: number | null;
             progress: components["schemas"]["UploadProgress"] | null;
         };
         MissionStep: {
@@ -534,7 +538,7 @@ export interface components {
             preview?: {
                 [key: string]: unknown;
             } | null;
-            /** @default 21600 */
+            /** @default 86400 */
             valid_for_s: number;
         };
         NewNote: {
@@ -772,8 +776,12 @@ export interface components {
         /** @enum {string} */
         Role: "viewer" | "pilot" | "admin";
         RollBack: {
-            /** @default 21600 */
+            /** @default 86400 */
             valid_for_s: number;
+        };
+        RollBackOnItsWay: {
+            user: string;
+            expires: number;
         };
         RudderShape: {
             x_m: number;
@@ -990,6 +998,8 @@ export interface components {
             share: number;
             samples: number;
             dives: number;
+            texts: number;
+            left_out: number;
             begin: number | null;
             end: number | null;
         };
@@ -1245,6 +1255,8 @@ export interface components {
             share: number;
             samples: number;
             dives: number;
+            texts: number;
+            left_out: number;
             begin: number | null;
             end: number | null;
             name: string;
@@ -1525,6 +1537,7 @@ export type ReplayChange = components['schemas']['ReplayChange'];
 export type ReplayState = components['schemas']['ReplayState'];
 export type Role = components['schemas']['Role'];
 export type RollBack = components['schemas']['RollBack'];
+export type RollBackOnItsWay = components['schemas']['RollBackOnItsWay'];
 export type RudderShape = components['schemas']['RudderShape'];
 export type Sampling = components['schemas']['Sampling'];
 export type Section = components['schemas']['Section'];

@@ -93,6 +93,7 @@ class Missions:
         if not follower.held.previous:
             raise MissionError(f"vehicle {vehicle}: it holds no orders before the present ones")
         ask(line, lambda _end, t: follower.put(line, Task("roll-back", user, None, valid_for_s), t))
+        self._tell(vehicle, None)
 
     def take_back(self, vehicle: int, id: int, user: str) -> MissionRow:
         """Take back a mission that the vehicle does not have yet.

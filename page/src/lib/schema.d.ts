@@ -583,6 +583,14 @@ export interface components {
             user: string;
             words: string;
         };
+        OpenAbort: {
+            id: string;
+            /** @enum {string} */
+            step: "waits" | "sent" | "aboard";
+            words: string;
+            given: number;
+            expires: number;
+        };
         OpenedPlan: {
             plan: components["schemas"]["StationPlan"];
             remarks: string[];
@@ -1109,6 +1117,7 @@ export interface components {
                 [key: string]: string;
             };
             holder: string | null;
+            waiting: components["schemas"]["Waiting"];
             channels: components["schemas"]["ChannelInfo"][];
             limits: components["schemas"]["Limit"][];
             shape: components["schemas"]["Shape"] | null;
@@ -1146,6 +1155,18 @@ export interface components {
                 [key: string]: string;
             };
             holder: string | null;
+            waiting: components["schemas"]["Waiting"];
+        };
+        Waiting: {
+            /** @default 0 */
+            commands: number;
+            /** @default 0 */
+            parameters: number;
+            /** @default 0 */
+            missions: number;
+            /** @default 0 */
+            transfers: number;
+            abort?: components["schemas"]["OpenAbort"] | null;
         };
         Water: {
             /**
@@ -1512,6 +1533,7 @@ export type NewTransfer = components['schemas']['NewTransfer'];
 export type NewUser = components['schemas']['NewUser'];
 export type NewValue = components['schemas']['NewValue'];
 export type NoteRow = components['schemas']['NoteRow'];
+export type OpenAbort = components['schemas']['OpenAbort'];
 export type OpenedPlan = components['schemas']['OpenedPlan'];
 export type OrdersBody = components['schemas']['OrdersBody'];
 export type Parameter = components['schemas']['Parameter'];
@@ -1566,6 +1588,7 @@ export type VehicleAlarm = components['schemas']['VehicleAlarm'];
 export type VehicleDetail = components['schemas']['VehicleDetail'];
 export type VehiclePosition = components['schemas']['VehiclePosition'];
 export type VehicleSummary = components['schemas']['VehicleSummary'];
+export type Waiting = components['schemas']['Waiting'];
 export type Water = components['schemas']['Water'];
 export type Waypoint = components['schemas']['Waypoint'];
 export type WingShape = components['schemas']['WingShape'];

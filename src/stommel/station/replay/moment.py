@@ -9,6 +9,7 @@ from stommel.station.settings import VehicleSettings
 from stommel.station.vehicles.attached import last_dives
 from stommel.station.vehicles.summary import LAST_DIVES, Known, summary_of
 from stommel.station.vehicles.underway import Sample, Underway
+from stommel.station.vehicles.waiting import NOTHING
 
 HEARD_FOR = 60.0
 """A vehicle counts as heard if something came of it so lately [s]."""
@@ -41,13 +42,16 @@ class Moment:
         self._underway.take(samples)
 
     def summary(self, at: float, latest: Mapping[str, tuple[float, float]]) -> dict[str, Any]:
-        """How the vehicle was at a time, out of the latest values until then; who held command then is left out."""
+        """How the vehicle was at a time, out of the latest values until then.
+
+        Who held command then, and what waited, is left out.
+        """
         settings = self._settings
         known = Known(
             settings.vehicle, settings.title, settings.model, settings.is_simulated, settings.speed, at,
             _contact(at, latest), latest, self._dives(at), self._underway.left_surface, self._underway.approach,
         )  # fmt: skip
-        return summary_of(known) | {"holder": None}
+        return summary_of(known) | {"holder": None, "waiting": NOTHING}
 
     def _dives(self, at: float) -> Sequence[DiveRow]:
         return last_dives(self._archive, self._settings.vehicle, LAST_DIVES, until=at)

@@ -4,6 +4,7 @@ from typing import Any
 
 from tests.page.manned import told
 from tests.page.past import Past
+from tests.page.waiting import until
 
 STATES = {"in progress": 3, "done": 10}
 SHORE = {"target_system": 255, "target_component": 190}
@@ -54,15 +55,27 @@ def test_the_last_word_that_came_while_the_page_was_away_is_told(page: Any, past
     """The socket is lost before the answer comes, and is back after it."""
     from playwright.sync_api import expect
 
+    sockets, away = list[Any](), list[bool]()
+
+    def opened(socket: Any) -> None:
+        if away:
+            socket.close(code=1001)
+        else:
+            socket.connect_to_server()
+            sockets.append(socket)
+
+    page.route_web_socket("**/api/live", opened)
     page.goto(f"{past.address}/#/vehicle/1/plots")
     page.get_by_role("button", name="Abort", exact=True).click()
     page.get_by_role("button", name="Abort now").click()
     expect(page.locator("[data-abort-state='sent']")).to_be_visible()
     id = told(past.address, "/vehicles/1")["waiting"]["abort"]["id"]
-    page.context.set_offline(True)
-    page.evaluate("window.dispatchEvent(new Event('offline'))")
+    away.append(True)
+    sockets[-1].close(code=1001)
     answer(past, id, "done", "at the surface")
-    while not told(past.address, f"/vehicles/1/commands/{id}")["is_last"]:
-        page.wait_for_timeout(50)
-    page.context.set_offline(False)
+    until(page, lambda: told(past.address, f"/vehicles/1/commands/{id}")["is_last"])
+    until(page, lambda: told(past.address, "/vehicles/1")["waiting"]["abort"] is None)
+    assert page.locator("[data-abort-state='sent']").is_visible()
+    away.clear()
     expect(page.get_by_text("Abort of vehicle 1: done; at the surface.")).to_be_visible()
+    expect(page.locator("[data-abort-state]")).to_have_count(0)

@@ -46,6 +46,8 @@ CHANNELS: list[tuple[str, str, str, str, float]] = [
 STATES = {0: "start-up", 1: "hold", 2: "communicate", 3: "mission", 4: "ascend", 5: "recover", 6: "abort"}
 PHASES = {0: "surface", 1: "descent", 2: "inflection", 3: "ascent", 4: "recovery", 5: "drift"}
 
+WAITING = {"commands": 0, "parameters": 0, "missions": 0, "transfers": 0, "abort": None}
+
 
 def phase_of(u: float) -> int:
     """Phase at a share u of the dive, beyond 1 at the surface."""
@@ -107,7 +109,7 @@ def summary(vehicle: int, now: float, speed: float) -> dict[str, Any]:
         return {
             "vehicle": 2, "name": "Sea-Wing 12", "model": "seawing", "simulated": False, "speed": 1.0, "now": now,
             "heard": False, "link_reason": "waits for the first frame on serial /dev/ttyUSB0", "alarms": [],
-            **dict.fromkeys(empty), "missing": dict.fromkeys(empty, reason), "told": {},
+            **dict.fromkeys(empty), "missing": dict.fromkeys(empty, reason), "told": {}, "waiting": WAITING,
         }  # fmt: skip
     found = values(now)
     dive_begin = EPOCH + (found["dive"] - 1.0) * CYCLE_S
@@ -132,4 +134,5 @@ def summary(vehicle: int, now: float, speed: float) -> dict[str, Any]:
         "told": dict.fromkeys(("state", "phase", "dive", "waypoint", "mission", "waypoint_distance_m"), now - 3.0),
         "waypoint_distance_m": found["waypoint_distance_m"], "eta": {"t": now + found["waypoint_distance_m"] / 0.29},
         "missing": {} if now < up else {"next_surfacing": "it is at the surface"}, "holder": "anna",
+        "waiting": WAITING,
     }  # fmt: skip

@@ -452,8 +452,9 @@ export interface components {
             name: string;
             sha256: string;
             /** @enum {string} */
-            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted";
+            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted" | "cancelled" | "superseded" | "expired";
             words: string;
+            expires: number | null;
         };
         MissionAboard: {
             number: number | null;
@@ -467,6 +468,7 @@ export interface components {
             depth_m: number | null;
             mission: components["schemas"]["Mission"] | null;
             upload: components["schemas"]["MissionOnItsWay"] | null;
+            roll_back: components["schemas"]["RollBackOnItsWay"] | null;
             waiting: number;
         };
         MissionDetail: {
@@ -477,8 +479,9 @@ export interface components {
             name: string;
             sha256: string;
             /** @enum {string} */
-            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted";
+            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted" | "cancelled" | "superseded" | "expired";
             words: string;
+            expires: number | null;
             orders: string;
             plan: {
                 [key: string]: unknown;
@@ -493,8 +496,9 @@ export interface components {
             name: string;
             sha256: string;
             /** @enum {string} */
-            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted";
+            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted" | "cancelled" | "superseded" | "expired";
             words: string;
+            expires: number | null;
             progress: components["schemas"]["UploadProgress"] | null;
         };
         MissionStep: {
@@ -535,7 +539,7 @@ export interface components {
             preview?: {
                 [key: string]: unknown;
             } | null;
-            /** @default 21600 */
+            /** @default 86400 */
             valid_for_s: number;
         };
         NewNote: {
@@ -579,6 +583,14 @@ export interface components {
             written: number;
             user: string;
             words: string;
+        };
+        OpenAbort: {
+            id: string;
+            /** @enum {string} */
+            step: "waits" | "sent" | "aboard";
+            words: string;
+            given: number;
+            expires: number;
         };
         OpenedPlan: {
             plan: components["schemas"]["StationPlan"];
@@ -773,8 +785,12 @@ export interface components {
         /** @enum {string} */
         Role: "viewer" | "pilot" | "admin";
         RollBack: {
-            /** @default 21600 */
+            /** @default 86400 */
             valid_for_s: number;
+        };
+        RollBackOnItsWay: {
+            user: string;
+            expires: number;
         };
         RudderShape: {
             x_m: number;
@@ -1115,6 +1131,7 @@ export interface components {
                 [key: string]: number;
             };
             holder: string | null;
+            waiting: components["schemas"]["Waiting"];
             channels: components["schemas"]["ChannelInfo"][];
             limits: components["schemas"]["Limit"][];
             shape: components["schemas"]["Shape"] | null;
@@ -1158,6 +1175,18 @@ export interface components {
                 [key: string]: number;
             };
             holder: string | null;
+            waiting: components["schemas"]["Waiting"];
+        };
+        Waiting: {
+            /** @default 0 */
+            commands: number;
+            /** @default 0 */
+            parameters: number;
+            /** @default 0 */
+            missions: number;
+            /** @default 0 */
+            transfers: number;
+            abort?: components["schemas"]["OpenAbort"] | null;
         };
         Water: {
             /**
@@ -1530,6 +1559,7 @@ export type NewTransfer = components['schemas']['NewTransfer'];
 export type NewUser = components['schemas']['NewUser'];
 export type NewValue = components['schemas']['NewValue'];
 export type NoteRow = components['schemas']['NoteRow'];
+export type OpenAbort = components['schemas']['OpenAbort'];
 export type OpenedPlan = components['schemas']['OpenedPlan'];
 export type OrdersBody = components['schemas']['OrdersBody'];
 export type Parameter = components['schemas']['Parameter'];
@@ -1555,6 +1585,7 @@ export type ReplayChange = components['schemas']['ReplayChange'];
 export type ReplayState = components['schemas']['ReplayState'];
 export type Role = components['schemas']['Role'];
 export type RollBack = components['schemas']['RollBack'];
+export type RollBackOnItsWay = components['schemas']['RollBackOnItsWay'];
 export type RudderShape = components['schemas']['RudderShape'];
 export type Sampling = components['schemas']['Sampling'];
 export type Section = components['schemas']['Section'];
@@ -1583,6 +1614,7 @@ export type VehicleAlarm = components['schemas']['VehicleAlarm'];
 export type VehicleDetail = components['schemas']['VehicleDetail'];
 export type VehiclePosition = components['schemas']['VehiclePosition'];
 export type VehicleSummary = components['schemas']['VehicleSummary'];
+export type Waiting = components['schemas']['Waiting'];
 export type Water = components['schemas']['Water'];
 export type Waypoint = components['schemas']['Waypoint'];
 export type WingShape = components['schemas']['WingShape'];

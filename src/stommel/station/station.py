@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import asdict
+from functools import partial
 from threading import Thread
 from typing import Any
 
@@ -27,6 +28,7 @@ from stommel.station.vehicles.logs import VehicleLogs
 from stommel.station.vehicles.missions import Missions
 from stommel.station.vehicles.opening import VehicleError
 from stommel.station.vehicles.parameters import Parameters
+from stommel.station.vehicles.waiting import NOTHING, WaitingThings
 from stommel.station.watching import alarms_of, open_alarms, watch
 
 Watcher = Callable[[int, Batch, float], None]
@@ -59,6 +61,7 @@ class Station:
         self.completers: list[Completer] = []
         """Add to summaries."""
         self._holders: dict[int, Hold | None] = {}
+        self._waiting: dict[int, WaitingThings] = {}
         self._held = ExitStack()
         self._is_started = False
         try:
@@ -132,11 +135,13 @@ class Station:
         news = VehicleNews(settings, self.archive, self.hub, self._complete)
         line = VehicleLine(settings, self.settings.folder, self.archive, self._committed)
         self.hub.open(number, line.clock.now, self.archive.latest(number), line.ingest.periods.of_key)
-        line.tellers.append(news)
         self.commands.follow(line)
         self.parameters.follow(line)
         self.missions.follow(line)
         self.files.follow(line)
+        services = (self.parameters, self.missions, self.files)
+        waiting = self._waiting[number] = WaitingThings(*(partial(each.open, number) for each in services))
+        line.tellers += [waiting, news]
         self.vehicles[number], self.news[number] = line, news
         self._holders[number] = self.people.holders.of(number)
         watch(self.alarms, line, lambda: self.summary(number))
@@ -152,6 +157,8 @@ class Station:
     def _complete(self, vehicle: int, summary: dict[str, Any]) -> None:
         hold = self._holders.get(vehicle)
         summary["holder"] = None if hold is None else hold.user
+        waiting = self._waiting.get(vehicle)
+        summary["waiting"] = NOTHING if waiting is None else waiting.told
         summary["alarms"] = open_alarms(self.alarms, vehicle)
         for completer in self.completers:
             completer(vehicle, summary)

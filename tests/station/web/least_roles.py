@@ -52,6 +52,8 @@ LEAST_ROLES: dict[tuple[str, str], str] = {
     ("GET", f"{V}/mission"): VIEWER,
     ("POST", f"{V}/mission"): HOLDER,
     ("POST", f"{V}/mission/roll-back"): HOLDER,
+    ("DELETE", f"{V}/mission/roll-back"): HOLDER,
+    ("DELETE", f"{V}/missions/{{id}}"): HOLDER,
     # files
     ("GET", f"{V}/listing"): VIEWER,
     ("GET", f"{V}/transfers"): VIEWER,

@@ -51,7 +51,7 @@ export class Aboard {
       live.onOpen(() => void this.load()),
     ];
     const again = setInterval(() => {
-      if (this.mission?.upload) void this.load();
+      if (this.mission?.upload?.progress) void this.load();
     }, 1500);
     return () => {
       clearTimeout(timer);

@@ -15,6 +15,7 @@ from stommel.station.settings import VehicleSettings
 from stommel.station.vehicles.attached import last_dives
 from stommel.station.vehicles.summary import LAST_DIVES, Known, summary_of
 from stommel.station.vehicles.underway import Sample, Underway
+from stommel.station.vehicles.waiting import NOTHING
 from stommel.station.vehicles.whereabouts import Whereabouts
 
 HEARD_FOR = 60.0
@@ -52,14 +53,17 @@ class Moment:
         self._whereabouts.take(samples)
 
     def summary(self, at: float, latest: Mapping[str, tuple[float, float]]) -> dict[str, Any]:
-        """How the vehicle was at a time, out of the latest values until then; who held command then is left out."""
+        """How the vehicle was at a time, out of the latest values until then.
+
+        Who held command then, and what waited, is left out.
+        """
         settings = self._settings
         known = Known(
             settings.vehicle, settings.title, settings.model, settings.is_simulated, settings.speed, at,
             _contact(at, latest), latest, self._dives(at), self._underway.left_surface, self._underway.approach,
             self._whereabouts.last(),
         )  # fmt: skip
-        return summary_of(known) | {"holder": None, "alarms": self._alarms(at, latest)}
+        return summary_of(known) | {"holder": None, "waiting": NOTHING, "alarms": self._alarms(at, latest)}
 
     def _alarms(self, at: float, latest: Mapping[str, tuple[float, float]]) -> list[dict[str, Any]]:
         """Alarms that were open then, and those that the vehicle told of and the station did not keep, as of a log."""

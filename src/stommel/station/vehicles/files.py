@@ -121,6 +121,10 @@ class Files:
         ask(line, lambda end, _t: follower.cancel(end, id))
         return self._row(id)
 
+    def open(self, vehicle: int) -> int:
+        """How many transfers are not over, and do not rest."""
+        return sum(each.row.state == GOING for each in list(self._followers[vehicle].transfers.values()))
+
     def transfers(self, vehicle: int, limit: int) -> list[dict[str, Any]]:
         """The last transfers, the newest first, as the API tells them."""
         return [self.told(row) for row in self._rows.transfers(vehicle, limit)]

@@ -10,6 +10,7 @@ from stommel.station.alarms.severity import Severity
 from stommel.station.channels import CHANNELS, channel_named, is_stale
 from stommel.station.shape import shape_of
 from stommel.station.states import state_machine
+from stommel.station.vehicles.waiting import Waiting
 from stommel.station.watching import file_of
 from stommel.station.web.access import Viewer
 from stommel.station.web.errors import refusal
@@ -127,6 +128,7 @@ class VehicleSummary(BaseModel):
     told: dict[str, float]
     """When the vehicle told those that do not say it themselves, by name [s since 1970]."""
     holder: str | None
+    waiting: Waiting
 
 
 class ChannelInfo(BaseModel):

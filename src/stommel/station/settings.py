@@ -85,7 +85,7 @@ class StationSettings(_Table):
     address: Annotated[str, Field(max_length=500, pattern=PRINTABLE)] = ""
     """Of the page as people reach it; stands in alerts."""
     demo: Flag = False
-    """Whether the page shows the guided first five minutes."""
+    """Whether the page shows the guided first five minutes by itself."""
     alarms: AlarmSettings = AlarmSettings()
     alerts: AlertSettings = AlertSettings()
     vehicles: Annotated[tuple[VehicleSettings, ...], Field(max_length=MOST_VEHICLES)] = ()

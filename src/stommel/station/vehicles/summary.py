@@ -134,8 +134,6 @@ def _words(latest: Latest, key: str, enumeration: str) -> str | None:
     return None if number is None else entry_words(enumeration).get(number, f"{key} {number}")
 
 
-
-
 def _battery(latest: Latest) -> dict[str, Any] | None:
     share, voltage = latest.get("battery_left_share"), latest.get("voltage_v")
     if share is None and voltage is None:

@@ -26,8 +26,10 @@ export interface MapVehicle extends Place {
 
 export interface MapTrack {
   id: string;
-  places: readonly Place[];
+  /** Where it is known when and how surely, it can be read off. */
+  places: readonly (Place | TrackPlace)[];
   kind: 'flown' | 'planned' | 'predicted' | 'aboard';
+  /** What it is, for those who read it off. */
   words?: string;
 }
 

@@ -4,7 +4,7 @@ import { geoPath, type GeoProjection } from 'd3-geo';
 import { token } from '../theme.svelte';
 import { landWithin, type LandPart } from './land';
 import { isTold } from './probes';
-import type { MapArrow, MapLayer, MapMark, MapTrack, Place } from './types';
+import type { MapArrow, MapFence, MapLayer, MapMark, MapTrack, Place } from './types';
 import { graticuleLabel, graticuleStep, pixelsPerMetre, placeAt, projection, wrapped, type MapView, type Size } from './view';
 
 export interface Scene {
@@ -12,7 +12,7 @@ export interface Scene {
   layers: readonly MapLayer[];
   images: ReadonlyMap<string, HTMLImageElement>;
   tracks: readonly MapTrack[];
-  fence: readonly Place[];
+  fences: readonly MapFence[];
   /** Whether the fence is still being drawn: its last side is not there yet. */
   fenceOpen: boolean;
   marks: readonly MapMark[];
@@ -34,7 +34,7 @@ export function draw(context: Context, view: MapView, size: Size, scene: Scene):
   drawLand(context, project, view, size, scene.land);
   for (const layer of scene.layers) drawLayer(context, project, layer, scene.images);
   const labels = drawGraticule(context, project, view, size);
-  drawFence(context, project, scene.fence, scene.fenceOpen);
+  for (const fence of scene.fences) drawFence(context, project, fence, scene.fenceOpen);
   for (const circle of scene.circles) drawCircle(context, project, view, circle);
   for (const track of scene.tracks) drawTrack(context, project, track);
   drawArrows(context, project, scene.arrows);
@@ -127,15 +127,15 @@ function drawGraticule(context: Context, project: GeoProjection, view: MapView, 
   ];
 }
 
-function drawFence(context: Context, project: GeoProjection, fence: readonly Place[], open: boolean): void {
+function drawFence(context: Context, project: GeoProjection, { places: fence, colour = 'warning' }: MapFence, open: boolean): void {
   const [first, last] = [fence[0], fence.at(-1)];
   if (!first || !last || fence.length < 2) return;
   const isArea = fence.length > 2;
-  context.strokeStyle = token('warning');
+  context.strokeStyle = token(colour);
   if (isArea) {
     context.beginPath();
     line(context, project, [...fence, first]);
-    context.fillStyle = token('warning');
+    context.fillStyle = token(colour);
     context.globalAlpha = 0.04;
     context.fill();
     context.globalAlpha = 1;
@@ -206,7 +206,7 @@ const TRACKS: Record<MapTrack['kind'], [string, number, number[]]> = {
 function drawTrack(context: Context, project: GeoProjection, track: MapTrack): void {
   const { places } = track;
   const [colour, width, dash] = TRACKS[track.kind];
-  context.strokeStyle = token(colour);
+  context.strokeStyle = token(track.colour ?? colour);
   if (places.length > 1) {
     for (const [stretch, isFixed] of stretches(places)) {
       context.beginPath();

@@ -130,6 +130,17 @@ def test_a_track_of_days_is_thinned_and_sifted_and_the_archive_keeps_all(archive
     assert archive.series(1, "latitude_deg", T0, T0 + 3 * DAY, 500).value.min() == 0.0
 
 
+def test_a_thinned_track_shows_each_surfacing(archive: Archive) -> None:
+    """Every four hours it has fixes for a minute: of 18 surfacings each is there."""
+    places = sailed(43_200, 6.0)
+    store(archive, places)
+    archive.store(1, Batch(samples=[("fix_age_s", t, max(0.0, (t - T0) % 14_400.0 - 60.0)) for t in places.t.tolist()]))
+    track = read_track(archive, 1, T0, T0 + 3 * DAY, 300)
+    fixes = [t for t, source in zip(track.t, track.source, strict=True) if source == "gps"]
+    assert {int((t - T0) // 14_400.0) for t in fixes} == set(range(18))
+    assert len(track.t) <= 302
+
+
 def test_a_track_ends_where_it_is_wanted(archive: Archive) -> None:
     """A replay shows nothing of later: not the end of the cell in which it stands."""
     store(archive, sailed(43_200, 6.0))

@@ -152,7 +152,7 @@ def mission(vehicle: int) -> dict[str, Any]:
     """Waypoints aboard."""
     rows = [{"latitude": a, "longitude": b, "radius_m": 500.0} for a, b in ((30.72, 126.2), (30.64, 126.38),
                                                                           (30.55, 126.3))]  # fmt: skip
-    return {"name": "east china sea", "waypoints": rows if vehicle == 1 else []}
+    return {"name": "east china sea", "waypoints": rows if vehicle == 1 else [], "geofence": []}
 
 
 @app.get("/api/vehicles/{vehicle}/states")

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.page.waiting import all_asked, becomes, passes, until
+from tests.page.waiting import all_asked, at_rest, becomes, passes, until
 
 BAR = ".map .scale"
 
@@ -75,6 +75,59 @@ def test_enter_on_a_vehicle_opens_it(sea: Any) -> None:
     sea.locator(".map .vehicle").focus()
     sea.keyboard.press("Enter")
     sea.wait_for_function("location.hash === '#/vehicle/1'")
+
+
+def test_missions_and_geofences_of_several_vehicles_are_told_apart(
+    page: Any, fake_station: str, screenshot: Callable[[str], Any]
+) -> None:
+    """Oracle: two missions of two waypoints and a fence each, made up here; each has its letter and its colour."""
+    for vehicle, west in ((1, 126.1), (2, 126.6)):
+        corners = [(30.5, west), (30.5, west + 0.4), (30.9, west + 0.4), (30.8, west)]
+        told = {
+            "name": "square",
+            "waypoints": [{"latitude": 30.6 + 0.1 * k, "longitude": west + 0.2, "radius_m": 500.0} for k in (0, 1)],
+            "geofence": [{"latitude": latitude, "longitude": longitude} for latitude, longitude in corners],
+        }
+        page.route(f"**/api/vehicles/{vehicle}/mission*", answering(told))
+    page.goto(f"{fake_station}/#/map")
+    page.locator(".map .waypoint").nth(3).wait_for()
+    page.locator(".map .area").nth(1).wait_for()
+    at_rest(page)
+    screenshot("map-of-two-missions")
+    assert page.locator(".map .waypoint text").all_text_contents() == ["A1", "A2", "B1", "B2"]
+    assert page.locator(".map .area").all_text_contents() == ["geofence of ZJU glider", "geofence of Sea-Wing 12"]
+    assert page.locator(".map .vehicle text").text_content() == "A ZJU glider"
+    strokes = page.locator(".map .waypoint .face").evaluate_all("all => all.map((one) => getComputedStyle(one).stroke)")
+    assert strokes[0] == strokes[1]
+    assert strokes[2] == strokes[3]
+    assert strokes[0] != strokes[2]
+    fills = page.locator(".map .area").evaluate_all("all => all.map((one) => getComputedStyle(one).fill)")
+    assert fills == [strokes[0], strokes[2]]
+    for colour in fills:
+        becomes(page, lambda colour=colour: has_colour(page, colour), wanted=True)
+
+
+def answering(told: dict[str, Any]) -> Callable[[Any], None]:
+    """In place of the station."""
+    return lambda route: route.fulfill(json=told)
+
+
+def has_colour(page: Any, colour: str) -> bool:
+    """Whether the canvas has many pixels of a colour, as rgb(r, g, b)."""
+    found: bool = page.evaluate(
+        """(colour) => {
+          const wanted = colour.match(/[0-9.]+/g).map(Number);
+          const canvas = document.querySelector('.map canvas');
+          const pixels = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+          let count = 0;
+          for (let i = 0; i < pixels.length; i += 4) {
+            if ([0, 1, 2].every((k) => Math.abs(pixels[i + k] - wanted[k]) < 12)) count += 1;
+          }
+          return count > 200;
+        }""",
+        colour,
+    )
+    return found
 
 
 def test_the_coast_comes_once_and_is_drawn(page: Any, fake_station: str, screenshot: Callable[[str], Any]) -> None:

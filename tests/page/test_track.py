@@ -135,3 +135,47 @@ def test_charts_and_currents_are_where_waypoints_are_drawn(
     chart.click()
     until(page, lambda: page.evaluate(CANVAS) == drawn)
     httpx.delete(f"{silent.address}/api/layers/{made['id']}")
+
+
+def test_the_track_and_currents_are_read_off_by_pointer_and_keys(
+    page: Any, silent: Silent, screenshot: Callable[[str], Path], serious: Callable[[], list[str]]
+) -> None:
+    """Oracles: the vehicle lies at the last position, 3 d after the first, at a surfacing; 8 m come to 20 m at 95 %.
+
+    The current of a dive is 0.3 m/s to the north and 0.4 to the east: 0.5 m/s to 053 deg.
+    """
+    page.goto(f"{silent.address}/#/map")
+    page.get_by_role("group", name="Track shown").get_by_role("button", name="All").click()
+    page.get_by_text("3\u202fd 0\u202fh").wait_for()
+    at_rest(page)
+    last = f"{minutes(silent.end)}:00 UTC, {north(3.0 * DAY)} 123°00.000′E, ± 20 m, fix by GPS"
+    track = page.get_by_role("slider", name="Track of vehicle 1")
+    told = page.locator(".map .told")
+    track.focus()
+    becomes(page, lambda: plain(told.inner_text()), last)
+    assert plain(track.get_attribute("aria-valuetext")) == last
+    page.keyboard.press("ArrowLeft")
+    until(page, lambda: ", estimate" in told.inner_text())
+    page.keyboard.press("Home")
+    becomes(page, lambda: plain(told.inner_text()).split(",")[0], f"{minutes(silent.begin)}:00 UTC")
+    screenshot("track-read-off")
+    page.keyboard.press("Tab")
+    becomes(page, lambda: plain(told.inner_text()), "Current of dive 3: 0.50 m/s 053°")
+    page.get_by_role("application", name="Map of all vehicles").focus()
+    told.wait_for(state="detached")
+    box = page.locator(".map .vehicle path").bounding_box()
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 12 + 60)
+    until(page, lambda: "UTC, 30°" in told.inner_text())
+    assert page.get_by_text("ring and ±: it lies within, 95 % sure").is_visible()
+    assert page.locator(".map .vehicle text").text_content().startswith("vehicle 1, 2")
+    assert serious() == []
+
+
+def north(t: float) -> str:
+    """Latitude after a time, as the page writes it."""
+    degrees, rest = divmod(30.0 + 0.3 * t / METRES_TO_A_DEGREE, 1.0)
+    return f"{degrees:.0f}°{60.0 * rest:06.3f}′N"
+
+
+def plain(words: str | None) -> str:
+    return (words or "").replace(THIN, " ")

@@ -5,6 +5,7 @@ import { api } from '../api';
 import { clock } from '../clock.svelte';
 import { live } from '../live.svelte';
 import type { DiveRow, LayerRow, MissionAboard, Position, Track, VehicleKey } from '../types';
+import { course, quantity, velocity } from '../units';
 import { spanWords, trackSpan } from './span.svelte';
 import type { MapArrow, MapLayer, MapWaypoint, Place, TrackPlace } from './types';
 
@@ -135,13 +136,14 @@ export function together(waypoints: readonly MapWaypoint[]): MapWaypoint[] {
 function arrow(row: DiveRow, strong: boolean): MapArrow[] {
   const { latitude_begin, longitude_begin, latitude_end, longitude_end, current_north_m_s, current_east_m_s } = row;
   if (latitude_begin === null || longitude_begin === null || current_north_m_s === null || current_east_m_s === null) return [];
+  const flow = velocity(current_north_m_s, current_east_m_s);
   return [
     {
       latitude: (latitude_begin + (latitude_end ?? latitude_begin)) / 2,
       longitude: (longitude_begin + (longitude_end ?? longitude_begin)) / 2,
       north_m_s: current_north_m_s,
       east_m_s: current_east_m_s,
-      words: `current of dive ${row.dive}`,
+      words: `Current of dive ${row.dive}: ${quantity(flow.speed, 'm/s', 2)} ${course(flow.course)}`,
       strong,
     },
   ];

@@ -3,7 +3,8 @@
 import { geoPath, type GeoProjection } from 'd3-geo';
 import { token } from '../theme.svelte';
 import { landWithin, type LandPart } from './land';
-import type { MapArrow, MapLayer, MapMark, MapTrack, Place } from './types';
+import { isTold } from './probes';
+import type { MapArrow, MapFence, MapLayer, MapMark, MapTrack, Place } from './types';
 import { graticuleLabel, graticuleStep, pixelsPerMetre, placeAt, projection, wrapped, type MapView, type Size } from './view';
 
 export interface Scene {
@@ -11,7 +12,7 @@ export interface Scene {
   layers: readonly MapLayer[];
   images: ReadonlyMap<string, HTMLImageElement>;
   tracks: readonly MapTrack[];
-  fence: readonly Place[];
+  fences: readonly MapFence[];
   /** Whether the fence is still being drawn: its last side is not there yet. */
   fenceOpen: boolean;
   marks: readonly MapMark[];
@@ -33,7 +34,7 @@ export function draw(context: Context, view: MapView, size: Size, scene: Scene):
   drawLand(context, project, view, size, scene.land);
   for (const layer of scene.layers) drawLayer(context, project, layer, scene.images);
   const labels = drawGraticule(context, project, view, size);
-  drawFence(context, project, scene.fence, scene.fenceOpen);
+  for (const fence of scene.fences) drawFence(context, project, fence, scene.fenceOpen);
   for (const circle of scene.circles) drawCircle(context, project, view, circle);
   for (const track of scene.tracks) drawTrack(context, project, track);
   drawArrows(context, project, scene.arrows);
@@ -126,15 +127,15 @@ function drawGraticule(context: Context, project: GeoProjection, view: MapView, 
   ];
 }
 
-function drawFence(context: Context, project: GeoProjection, fence: readonly Place[], open: boolean): void {
+function drawFence(context: Context, project: GeoProjection, { places: fence, colour = 'warning' }: MapFence, open: boolean): void {
   const [first, last] = [fence[0], fence.at(-1)];
   if (!first || !last || fence.length < 2) return;
   const isArea = fence.length > 2;
-  context.strokeStyle = token('warning');
+  context.strokeStyle = token(colour);
   if (isArea) {
     context.beginPath();
     line(context, project, [...fence, first]);
-    context.fillStyle = token('warning');
+    context.fillStyle = token(colour);
     context.globalAlpha = 0.04;
     context.fill();
     context.globalAlpha = 1;
@@ -203,15 +204,50 @@ const TRACKS: Record<MapTrack['kind'], [string, number, number[]]> = {
 };
 
 function drawTrack(context: Context, project: GeoProjection, track: MapTrack): void {
-  if (track.places.length < 2) return;
-  context.beginPath();
-  line(context, project, track.places);
+  const { places } = track;
   const [colour, width, dash] = TRACKS[track.kind];
-  context.strokeStyle = token(colour);
-  context.lineWidth = width;
-  context.setLineDash(dash);
-  context.stroke();
-  context.setLineDash([]);
+  context.strokeStyle = token(track.colour ?? colour);
+  if (places.length > 1) {
+    for (const [stretch, isFixed] of stretches(places)) {
+      context.beginPath();
+      line(context, project, stretch);
+      context.lineWidth = isFixed === undefined ? width : isFixed ? 3 : 1.5;
+      context.setLineDash(isFixed === false ? [5, 3] : dash);
+      context.stroke();
+    }
+    context.setLineDash([]);
+  }
+  drawFixes(context, project, places);
+}
+
+type Places = MapTrack['places'];
+
+/** The track where it was seen by GPS from one position to the next, and where it was not; undefined: that is not told. */
+function stretches(places: Places): [Places, boolean | undefined][] {
+  const found: [Place[], boolean | undefined][] = [];
+  for (let i = 1; i < places.length; i += 1) {
+    const [from, to] = [places[i - 1], places[i]];
+    if (!from || !to) continue;
+    const isFixed = isTold(from) && isTold(to) ? from.source === 'gps' && to.source === 'gps' : undefined;
+    const last = found.at(-1);
+    if (last && last[1] === isFixed) last[0].push(to);
+    else found.push([[from, to], isFixed]);
+  }
+  return found;
+}
+
+/** A dot at each fix; those that would cover each other are left out. */
+function drawFixes(context: Context, project: GeoProjection, places: Places): void {
+  let last: [number, number] | undefined;
+  context.fillStyle = context.strokeStyle;
+  for (const place of places) {
+    const at = isTold(place) && place.source === 'gps' ? project([place.longitude, place.latitude]) : null;
+    if (!at || (last && Math.hypot(at[0] - last[0], at[1] - last[1]) < 8)) continue;
+    last = at;
+    context.beginPath();
+    context.arc(at[0], at[1], 2.5, 0, 2 * Math.PI);
+    context.fill();
+  }
 }
 
 /** The newest last; earlier ones that would cover each other are left out. */

@@ -24,11 +24,24 @@ export interface MapVehicle extends Place {
   stale?: boolean;
 }
 
+/** The area that a vehicle may not leave. */
+export interface MapFence {
+  places: readonly Place[];
+  /** Whose it is, where there are several. */
+  label?: string | undefined;
+  /** A name of tokens.css. */
+  colour?: string | undefined;
+}
+
 export interface MapTrack {
   id: string;
-  places: readonly Place[];
+  /** Where it is known when and how surely, it can be read off. */
+  places: readonly (Place | TrackPlace)[];
   kind: 'flown' | 'planned' | 'predicted' | 'aboard';
+  /** What it is, for those who read it off. */
   words?: string;
+  /** A name of tokens.css; that of its kind if left out. */
+  colour?: string | undefined;
 }
 
 export interface MapWaypoint extends Place {
@@ -36,6 +49,8 @@ export interface MapWaypoint extends Place {
   label?: string;
   /** Its numbers in the mission, from 1: a mission that goes in rounds passes it more than once. */
   numbers?: readonly number[];
+  /** A name of tokens.css, where it is one of several vehicles. */
+  colour?: string | undefined;
   /** The one that is aimed at now. */
   active?: boolean;
   /** Something is wrong with it. */

@@ -55,7 +55,7 @@ export const GROUPS: readonly PanelGroup[] = [
       { id: 'speed', title: 'Speed', channels: ['speed_through_water_m_s', 'speed_over_ground_m_s', 'climb_m_s'] },
       { id: 'stream', title: 'Current of the water', channels: ['current_north_m_s', 'current_east_m_s'] },
       { id: 'waypoint', title: 'Distance to the waypoint', channels: ['waypoint_distance_m'] },
-      { id: 'doubt', title: 'Position may be wrong by', channels: ['position_sigma_m'] },
+      { id: 'doubt', title: 'Standard deviation of the position', channels: ['position_sigma_m'] },
     ],
   },
 ];

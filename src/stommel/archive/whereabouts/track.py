@@ -41,12 +41,14 @@ def read_track(archive: Archive, vehicle: int, begin: float, end: float, points:
     """
     told = told_places(archive, vehicle, begin, end)
     can_be = believed(told)
-    kept = thinned(told.of(can_be), points)
-    age = value_before(archive, vehicle, "fix_age_s", begin, end, kept.t)
+    whole = told.of(can_be)
+    age = value_before(archive, vehicle, "fix_age_s", begin, end, whole.t)
+    chosen = thinned(whole, points, age <= FRESH_FIX)
+    kept = whole.of(chosen)
     return Track(
         kept.t.tolist(), kept.latitude.tolist(), kept.longitude.tolist(),
         [None if np.isnan(each) else each for each in kept.sigma.tolist()],
-        [source_of(each) for each in age.tolist()],
+        [source_of(each) for each in age[chosen].tolist()],
         int(np.count_nonzero(~can_be)),
     )  # fmt: skip
 
@@ -56,15 +58,21 @@ def source_of(fix_age: float | None) -> str:
     return "gps" if fix_age is not None and fix_age <= FRESH_FIX else "estimate"
 
 
-def thinned(places: Places, points: int) -> Places:
-    """About so many of the positions, which draw the same track."""
+def thinned(places: Places, points: int, fixed: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Which of the positions to show, about as many as are wanted.
+
+    They draw the same track, and show each surfacing by the ends of its fixes if that takes no more than a half.
+    """
     if len(places.t) <= points:
-        return places
+        return np.arange(len(places.t))
     t_us = np.rint(places.t * 1e6).astype(np.int64)
     none: NDArray[np.intp] = np.empty(0, dtype=np.intp)
+    change = np.flatnonzero(fixed[1:] != fixed[:-1])
+    fixes = np.where(fixed[change], change, change + 1)
+    fixes = fixes if fixes.size <= points // 2 else none
     over = np.unwrap(places.longitude, period=360.0)
     kept = [
-        largest_triangles(Curve(t_us, value, len(t_us), 0.0), max(4, points // 2), none)
+        largest_triangles(Curve(t_us, value, len(t_us), 0.0), max(4, (points - fixes.size) // 2), none)
         for value in (places.latitude, over)
     ]
-    return places.of(np.unique(np.concatenate(kept)))
+    return np.unique(np.concatenate([*kept, fixes]))

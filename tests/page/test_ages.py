@@ -13,6 +13,8 @@ from tests.page.played_station import NOW, PlayedStation
 from tests.page.waiting import becomes, until
 
 HOURS = 5
+FRESH = NOW + 86_400.0
+"""Told by a vehicle whose clock is ahead: it does not grow old while a slow machine looks."""
 LONG_AGO = NOW - HOURS * 3600.0
 ATTITUDE = ("pitch_deg", "roll_deg", "heading_deg")
 
@@ -43,8 +45,8 @@ def test_attitude_dive_and_state_of_a_silent_vehicle_say_of_when_they_are(
 ) -> None:
     """Field report 133 of openmct-yamcs for what is no tile: an attitude of hours ago looked like one of now."""
     for key in (*ATTITUDE, "depth_m", "state"):
-        played.tell(key, NOW - 1.0, 3.0)
-    played.tell("ballast_ml", NOW - 1.0, 200.0)
+        played.tell(key, FRESH, 3.0)
+    played.tell("ballast_ml", FRESH, 200.0)
     played.tell("moving_mass_mm", LONG_AGO, 12.0)
     inside = page.locator("li", has_text="Moving mass")
     inside.get_by_text(re.compile(f"^old, {HOURS}.h")).wait_for()
@@ -61,7 +63,7 @@ def test_facts_say_of_which_dive_and_when_they_are(page: Any, played: PlayedStat
     """The current of an older dive stands for the last one that has none: it says which, and is marked."""
     summary = glider.summary(1, NOW, 20.0)
     summary |= {
-        "dive": 9, "heard": True, "told": {"state": NOW - 1.0, "waypoint_distance_m": NOW - 5400.0},
+        "dive": 9, "heard": True, "told": {"state": FRESH, "waypoint_distance_m": NOW - 5400.0},
         "speed_made_good": {"m_s": 0.3, "course_deg": 90.0, "dive": 8, "t": NOW - 3000.0},
         "current": {"north_m_s": 0.1, "east_m_s": 0.0, "dive": 5, "t": LONG_AGO},
     }  # fmt: skip
@@ -72,9 +74,9 @@ def test_facts_say_of_which_dive_and_when_they_are(page: Any, played: PlayedStat
     assert re.search(f"{HOURS}.h .* ago", current.inner_text())
     assert current.locator("time.old").count() == 1
     made_good = fact(page, "Speed made good")
-    assert "dive 8, 50" in made_good.inner_text()
+    assert re.search(r"dive 8, [5-9]\d.min ago", made_good.inner_text())
     assert made_good.locator("time.old").count() == 0
-    assert "90" in fact(page, "To waypoint 2").inner_text().split(";")[0]
+    assert re.match(r"9\d.min ago; there", fact(page, "To waypoint 2").inner_text())
     assert page.locator(".fact time.old").count() == 1
     played.sockets[-1].send(json.dumps({"type": "summary", "vehicle": 1, "summary": summary | {"heard": False}}))
     page.locator(".fact", has_text="To waypoint").locator("time.old").wait_for()

@@ -46,11 +46,11 @@ def test_a_value_is_old_by_the_period_in_which_it_comes(page: Any, played: Playe
     depth = tile(page, "Depth")
     played.tell("depth_m", NOW - 5400.0, 87.25, periods={"depth_m": 3600.0})
     depth.get_by_text("87.3").wait_for()
-    depth.get_by_text("90").wait_for()
+    depth.get_by_text(re.compile(r"^9\d")).wait_for()
     assert "stale" not in str(depth.get_attribute("class"))
     played.tell("depth_m", NOW - 5400.0, 88.25, periods={"depth_m": 2.0})
     depth.get_by_text("88.3").wait_for()
-    depth.get_by_text(re.compile("^old, (90|91|92)")).wait_for()
+    depth.get_by_text(re.compile(r"^old, 9\d")).wait_for()
 
 
 def test_a_subscription_that_fails_leaves_the_others_alone(page: Any, played: PlayedStation) -> None:

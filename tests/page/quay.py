@@ -25,7 +25,9 @@ BEFORE, NOW = ORDERS.replace("There and back", "The way before"), ORDERS
 """The mission that the vehicle held before, and the one that it holds."""
 SHORT, LONG = ("missions", "chart.bin"), ("missions", "survey.bin")
 """Files aboard: of some seconds, and of minutes."""
-FILES = {SHORT: noise(60_000), LONG: noise(2_000_000, 1)}
+LOGS = ("00003-000001-essential.log", "00003-000002-essential.log")
+"""Of the vehicle's log; they come ashore by themselves."""
+FILES = {SHORT: noise(60_000), LONG: noise(2_000_000, 1)} | {("log", each): noise(500, 2) for each in LOGS}
 FENCE = ((29.7, 119.6), (30.5, 119.6), (30.5, 120.5), (29.7, 120.5))
 """Corners of the plan of the mission aboard [deg]; around its waypoints and the dives."""
 HOUR = 3600.0
@@ -87,8 +89,13 @@ def quay_station(folder: Path) -> Iterator[Quay]:
     with served(RATE) as vehicle:
         vehicle.missions.files = [BEFORE.encode(), NOW.encode()]
         vehicle.files.files |= FILES
-        told = ["--database", database, "--link", vehicle.address, "--unsigned", "--model", "zju", "--port", "0"]
+        vehicle.files.folders.add(("log",))
+        settings = folder / "station.toml"
+        settings.write_text(
+            f'[[vehicles]]\nvehicle = 1\nlink = "{vehicle.address}"\nunsigned = true\nfetch = "essential"\n'
+        )
         program = [sys.executable, "-m", "tests.page.narrow_disk", str(full)]
-        for process, address in serve([*program, "station", "--folder", str(folder), *told]):
+        told = ["--folder", str(folder), "--database", database, "--settings", str(settings), "--port", "0"]
+        for process, address in serve([*program, "station", *told]):
             yield Quay(address, vehicle, begin, full)
             assert process.poll() is None, "the station ended during the test"

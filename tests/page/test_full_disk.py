@@ -19,7 +19,7 @@ NOTE = "written while there was no room; " * 280
 def say(quay: Quay, depths: range) -> None:
     """Let the vehicle tell depths, more than fits into the pages that a database has left."""
     for depth in depths:
-        quay.vehicle.say("GLIDER_STATE", time_boot_ms=0, depth=0.25 * depth, executive=3, phase=1, dive=8, alarms=0)
+        quay.vehicle.say("GLIDER_STATE", time_boot_ms=0, depth=0.25 * depth, executive=2, phase=0, dive=8, alarms=0)
 
 
 def test_a_full_disk_is_told_with_what_to_do_and_an_abort_goes_out(page: Any, quay: Quay, screenshot: Any) -> None:

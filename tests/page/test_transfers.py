@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from tests.page.quay import FILES, LONG, SHORT, Quay
+from tests.page.quay import FILES, LOGS, LONG, SHORT, Quay
 from tests.page.waiting import becomes, passes, until
 
 
@@ -65,3 +65,12 @@ def test_a_cancelled_transfer_is_over_and_can_be_begun_anew(view: Any, screensho
     view.get_by_role("button", name=f"Fetch {LONG[-1]}").wait_for()
     assert view.get_by_role("region", name="Files ashore").get_by_role("row", name=name).count() == 0
     screenshot("transfer-cancelled")
+
+
+def test_a_log_comes_by_itself_and_says_so(page: Any, quay: Quay, screenshot: Any) -> None:
+    """Oracle: `fetch = "essential"` of the station's settings; nobody asked for the file."""
+    page.goto(f"{quay.address}/#/vehicle/1/files")
+    log = page.locator(f"[data-transfer='log/{LOGS[0]}'][data-state='whole']")
+    log.get_by_text("fetched by itself").wait_for()
+    page.get_by_role("region", name="Files ashore").get_by_role("link", name=f"log/{LOGS[0]}").wait_for()
+    screenshot("log-by-itself")

@@ -14,9 +14,10 @@ expect = pytest.importorskip("playwright.sync_api").expect
 
 @pytest.fixture
 def view(page: Any, station: str) -> Any:
-    """The parameters of the simulated glider, once it has told them."""
+    """The parameters of the simulated glider, once all of its components have told theirs."""
     page.goto(f"{station}/#/vehicle/1/parameters")
-    page.locator("[data-parameter='SURFACE_TIME']").wait_for(timeout=240_000)
+    for name in ("SURFACE_TIME", "PUMP_FLOW", "CTD_PATIENCE"):
+        page.locator(f"[data-parameter='{name}']").wait_for(timeout=240_000)
     return page
 
 

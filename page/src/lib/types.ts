@@ -32,6 +32,7 @@ export type {
   Job,
   Mission,
   MissionAboard,
+  MissionDetail,
   Parameter,
   ParameterAnswer,
   OpenAbort,

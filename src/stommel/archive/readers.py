@@ -58,6 +58,19 @@ def stored_frames(
     return [_frame(row) for row in connection.execute(query)]
 
 
+def kept_messages(connection: Connection, vehicle: int) -> list[int]:
+    """Numbers of the messages of which a vehicle has frames, from one to the next: not all frames are read."""
+    of, found = frames.c, list[int]()
+    while True:
+        query = select(func.min(of.message_id)).where(of.vehicle_id == vehicle)
+        if found:
+            query = query.where(of.message_id > found[-1])
+        number = connection.execute(query).scalar()
+        if number is None:
+            return found
+        found.append(number)
+
+
 def frames_between(connection: Connection, vehicle: int, begin: float, end: float) -> Iterator[StoredFrame]:
     """The frames from `begin` to `end` [s since 1970] in order of time, read little by little."""
     of = frames.c

@@ -37,6 +37,7 @@ LEAST_ROLES: dict[tuple[str, str], str] = {
     ("GET", f"{V}/shape"): VIEWER,
     ("GET", f"{V}/link"): VIEWER,
     ("GET", f"{V}/frames"): VIEWER,
+    ("GET", f"{V}/messages"): VIEWER,
     # commands, parameters, missions
     ("GET", "/api/command-types"): VIEWER,
     ("GET", f"{V}/commands"): VIEWER,

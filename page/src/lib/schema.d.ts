@@ -990,6 +990,8 @@ export interface components {
             share: number;
             samples: number;
             dives: number;
+            texts: number;
+            left_out: number;
             begin: number | null;
             end: number | null;
         };
@@ -1245,6 +1247,8 @@ export interface components {
             share: number;
             samples: number;
             dives: number;
+            texts: number;
+            left_out: number;
             begin: number | null;
             end: number | null;
             name: string;

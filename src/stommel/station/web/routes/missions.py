@@ -192,7 +192,8 @@ def upload_mission(user: Holder, line: Line, station: TheStation, new: NewMissio
     plan, orders = new.plan, new.orders or ""
     if plan is not None:
         made = _resolved(station, line, plan)
-        plan, orders = made.model_dump(mode="json", exclude_none=True), station.previews.orders(made)
+        plan = made.model_dump(mode="json", exclude_none=True, exclude_unset=True)
+        orders = station.previews.orders(made)
     preview = new.preview if new.job is None else station.previews.job(new.job).get("result")
     row = station.missions.upload(
         line.vehicle, user.name, orders, plan=plan, preview=preview, valid_for_s=new.valid_for_s

@@ -333,6 +333,22 @@ export interface components {
             reason: string;
             problems: components["schemas"]["Problem"][];
         };
+        KeptLimit: {
+            low: number | null;
+            high: number | null;
+            /** @default 0 */
+            hysteresis: number;
+            /** @default 0 */
+            delay_s: number;
+            /**
+             * @default warning
+             * @enum {string}
+             */
+            severity: "notice" | "warning" | "critical";
+            channel: string;
+            changed: number;
+            changed_by: string;
+        };
         Latest: {
             now: number;
             values: {
@@ -420,8 +436,9 @@ export interface components {
         };
         LogEntry: {
             /** @enum {string} */
-            kind: "alarm" | "command" | "mission" | "note" | "text";
+            kind: "alarm" | "command" | "hold" | "limit" | "mission" | "note" | "parameter" | "text" | "transfer";
             id: string;
+            vehicle: number | null;
             t: number;
             user: string | null;
             words: string;
@@ -1530,6 +1547,7 @@ export type Hold = components['schemas']['Hold'];
 export type HolderInfo = components['schemas']['HolderInfo'];
 export type Job = components['schemas']['Job'];
 export type JobError = components['schemas']['JobError'];
+export type KeptLimit = components['schemas']['KeptLimit'];
 export type Latest = components['schemas']['Latest'];
 export type LatestValue = components['schemas']['LatestValue'];
 export type LayerRow = components['schemas']['LayerRow'];

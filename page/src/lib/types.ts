@@ -20,6 +20,7 @@ export type {
   Frame,
   Hold,
   HolderInfo,
+  KeptLimit,
   Latest,
   LayerRow,
   Limit,

@@ -14,8 +14,9 @@ from stommel.link.transports.address import read_address
 from stommel.plans.preview.previews import Previews
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
+from stommel.station.logbook.doings import Doings
 from stommel.station.people.afterwards import Afterwards
-from stommel.station.people.holders import Hold
+from stommel.station.people.holders import Hold, taking
 from stommel.station.people.people import People
 from stommel.station.replay.replays import Replays
 from stommel.station.settings import StationSettings, VehicleSettings
@@ -76,7 +77,8 @@ class Station:
             self.people = People(self.archive, told=self._holder_changed, later=afterwards)
             self.replays = Replays(self.archive, self.hub, self.vehicles)
             self._held.callback(self.replays.stop)
-            self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
+            self.doings = Doings(self.archive, self.now)
+            self.alarms = alarms_of(settings, self.archive, self.hub, self.doings, self._title)
             self.commands = Commands(self.archive, self.hub, self.vehicles)
             self.parameters = Parameters(self.archive, self.hub, self.vehicles)
             self.missions = Missions(self.archive, self.hub, self.vehicles)
@@ -164,7 +166,11 @@ class Station:
             completer(vehicle, summary)
 
     def _holder_changed(self, vehicle: int, hold: Hold | None) -> None:
-        self._holders[vehicle] = hold
+        before, self._holders[vehicle] = self._holders.get(vehicle), hold
+        if hold is not None:
+            self.doings.add(vehicle, "hold", hold.user, taking(hold))
+        elif before is not None:
+            self.doings.add(vehicle, "hold", before.user, "Gave up command")
         told = {"vehicle": vehicle, "user": None} if hold is None else asdict(hold)
         self.hub.publish(Happening("holder", vehicle, told))
 

@@ -91,3 +91,17 @@ def test_speed_and_current_of_the_archive_tell_their_dive(page: Any, past: Past)
     page.goto(f"{past.address}/#/vehicle/1")
     becomes(page, lambda: f"dive {dive['dive']}, " in fact(page, "Current").inner_text(), True)
     becomes(page, lambda: f"dive {dive['dive']}, " in fact(page, "Speed made good").inner_text(), True)
+
+
+def test_a_tile_shows_its_limits_before_they_are_broken(page: Any, played: PlayedStation, screenshot: Any) -> None:
+    """Oracle: the stand-in's limits: depth at most 200 m, voltage at least 24 V."""
+    depth = page.locator('[data-channel="Depth"]')
+    for value, said in ((50.0, "≤\u202f200"), (195.0, "near ≤\u202f200"), (201.0, "above 200.0")):
+        played.tell("depth_m", FRESH, value)
+        played.tell("voltage_v", FRESH, 28.0)
+        becomes(page, lambda: depth.locator(".foot > :first-child").inner_text(), said)
+        assert ("caution" in str(depth.get_attribute("class"))) == (value > 200.0)
+        if said.startswith("near"):
+            screenshot("limits")
+    voltage = page.locator('[data-channel="Voltage of the battery"]')
+    assert voltage.locator(".limits").inner_text() == "≥\u202f24"

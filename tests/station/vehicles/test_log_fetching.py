@@ -119,7 +119,10 @@ def test_while_one_is_paused_no_other_is_begun_and_a_cancelled_one_stays_so(tmp_
             client.post(f"/transfers/{begun[1]['id']}/resume")
             until(lambda: len(ashore(found)) == 3)
             assert begun[0]["path"] not in ashore(found)
-            assert [row["path"] for row in transfers(found)].count(begun[0]["path"]) == 1
+        with station(tmp_path, vehicle.address, **ESSENTIAL) as again:
+            vehicle.files.files["log", name(9)] = noise(300, 9)
+            until(lambda: f"log/{name(9)}" in ashore(again))
+            assert [row["path"] for row in transfers(again)].count(begun[0]["path"]) == 1, "over a restart too"
 
 
 def test_a_command_does_not_wait_for_a_log(tmp_path: Path) -> None:

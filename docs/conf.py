@@ -14,7 +14,9 @@ project = "stommel"
 author = "the stommel authors"
 project_copyright = "the stommel authors, Apache-2.0"
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathml", "generated_pages"]
+extensions = [
+    "myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathml", "generated_pages", "titles_in_navigation",
+]  # fmt: skip
 myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
 myst_dmath_double_inline = True
 myst_heading_anchors = 3

@@ -14,6 +14,7 @@ import xarray as xr
 from stommel.archive import Batch
 from stommel.link.shore.shore_end import ShoreEnd, ShoreSettings
 from stommel.link.signing.guard import Guard
+from stommel.messages.log.reader import read_log
 from stommel.simulation.flight import Flown
 from stommel.simulation.results.dataset import dataset_of, write_netcdf
 from stommel.simulation.scenario.mission import Mission
@@ -119,6 +120,26 @@ def require_complete(client: Client, truth: xr.Dataset) -> None:
     assert compared >= 15
 
 
+def require_told(client: Client, flight: Flight) -> None:
+    """What happened aboard stands once, at its time by the log, also what the radio said at the next surfacing."""
+    contents = [read_log(data) for data in flight.logs.values()]
+    happened = [
+        (flight.start + record.values[0], record.values[2])
+        for each in contents
+        for record in each.records
+        if record.kind == "event" and record.values[1] == "executive"
+    ]
+    assert len(happened) > 10
+    told = client.get("/vehicles/1/texts", limit=1000)
+    for t, words in happened:
+        found = [one["t"] for one in told if one["words"] == words and abs(one["t"] - t) < CTD_EVERY]
+        assert found == [pytest.approx(t, abs=1.5)], words
+    assert {words for _, words in happened} >= {words for _, _, words in flight.radio.texts if ": control" in words}
+    assert len({one["t"] for one in told if one["words"].startswith("mission: ascent")}) == sum(
+        words.startswith("mission: ascent") for _, words in happened
+    )
+
+
 def test_a_log_that_is_fetched_fills_what_the_radio_left_out(flight: Flight, tmp_path: Path) -> None:
     with served() as vehicle, station(tmp_path, vehicle.address) as found:
         found.archive.store(1, flight.radio._replace(frames=()))
@@ -142,3 +163,4 @@ def test_a_log_that_is_fetched_fills_what_the_radio_left_out(flight: Flight, tmp
         after = client.get("/vehicles/1/dives")
         assert [row["t_begin"] for row in after[: len(dives)]] == [row["t_begin"] for row in dives]  # none twice
         require_complete(client, flight.truth)
+        require_told(client, flight)

@@ -98,7 +98,7 @@ def test_no_waypoints_and_no_alarms() -> None:
         (
             "step_s = 1.0",
             "step_s = 1.0\nsample_every_s = 4e3",
-            "sample_every_s = 4000.0: must be between 0.1 and 3600 s",
+            "sample_every_s = 4000.0: must be between 0.1 and 3600",
         ),
     ],
 )

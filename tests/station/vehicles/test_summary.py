@@ -8,7 +8,7 @@ import pytest
 from stommel.archive import DiveRow
 from stommel.link.statistics import NOTHING_REFUSED, LinkStatistics
 from stommel.station.vehicles.line_status import LineStatus
-from stommel.station.vehicles.summary import Approach, Known, summary_of
+from stommel.station.vehicles.summary import Approach, Known, Usage, summary_of
 from stommel.station.vehicles.underway import Underway
 
 NOW = 1_800_000_000.0
@@ -98,6 +98,32 @@ def test_eta_is_the_distance_by_how_fast_it_becomes_less() -> None:
     assert summary_of(near)["eta"] == {"t": NOW - 30.0 + 6000.0}
     away = summary_of(known({"waypoint_distance_m": 3000.0}, approach=Approach(NOW - 5000.0, -0.1)))
     assert "no closer" in away["missing"]["eta"]
+
+
+def test_the_battery_lasts_as_long_as_what_is_left_at_the_power_of_late() -> None:
+    left = known({"energy_left_kj": 720.0}, usage=Usage(2.0, 3))
+    found = summary_of(left)["battery_lasts"]
+    assert found["t"] == NOW - 30.0 + 360_000.0  # 720 kJ at 2 W
+    assert "2 W" in found["why"]
+    assert "3 dives" in found["why"]
+    for usage in (Usage(0.0, 3), Usage(0.001, 3)):
+        assert "more than a year" in summary_of(left._replace(usage=usage))["missing"]["battery_lasts"]
+    assert "two dives" in summary_of(left._replace(usage=None))["missing"]["battery_lasts"]
+    assert "left" in summary_of(known(usage=Usage(2.0, 3)))["missing"]["battery_lasts"]
+
+
+def test_the_power_is_over_whole_dives_with_the_time_at_the_surface_and_begins_anew_with_a_mission() -> None:
+    """A dive of 1000 s uses 10 kJ, the 500 s at the surface after it 5 kJ: 15 kJ in 1500 s are 10 W."""
+    underway, used = Underway(), 100.0
+    for k in range(5):
+        t = NOW + 1500.0 * k
+        assert (underway.usage is None) == (k < 2)
+        underway.take([("phase", t - 1.0, 0.0), ("energy_used_kj", t - 1.0, used), ("phase", t, 1.0)])
+        underway.take([("energy_used_kj", t + 500.0, used + 9.0), ("phase", t + 1000.0, 0.0)])  # most at depth
+        used += 15.0
+    assert underway.usage == Usage(pytest.approx(10.0), 3)
+    underway.take([("energy_used_kj", NOW + 8000.0, 0.0)])
+    assert underway.usage is None
 
 
 def test_what_the_vehicle_told_says_when() -> None:

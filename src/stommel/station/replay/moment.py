@@ -61,7 +61,7 @@ class Moment:
         known = Known(
             settings.vehicle, settings.title, settings.model, settings.is_simulated, settings.speed, at,
             _contact(at, latest), latest, self._dives(at), self._underway.left_surface, self._underway.approach,
-            self._whereabouts.last(),
+            self._whereabouts.last(), self._underway.usage,
         )  # fmt: skip
         return summary_of(known) | {"holder": None, "waiting": NOTHING, "alarms": self._alarms(at, latest)}
 

@@ -98,7 +98,7 @@ class VehicleNews:
         known = Known(
             self.vehicle, settings.title, settings.model, settings.is_simulated, settings.speed, line.clock.now(),
             line.status(), self._hub.values(self.vehicle), tuple(self._dives), self.underway.left_surface,
-            self.underway.approach, self.whereabouts.last(),
+            self.underway.approach, self.whereabouts.last(), self.underway.usage,
         )  # fmt: skip
         summary = summary_of(known)
         summary["holder"] = None

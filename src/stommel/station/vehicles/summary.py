@@ -31,6 +31,15 @@ class Approach(NamedTuple):
     """Distance that it loses [m/s]."""
 
 
+class Usage(NamedTuple):
+    """What the vehicle uses."""
+
+    watts: float
+    """In the mean."""
+    dives: int
+    """Over so many, each with the time at the surface after it."""
+
+
 class Contact(Protocol):
     """Whether a vehicle is heard."""
 
@@ -65,6 +74,8 @@ class Known(NamedTuple):
     approach: Approach | None
     place: tuple[Told | None, str] = (None, "")
     """Where it is, and why later positions are not believed."""
+    usage: Usage | None = None
+    """What the last dives used."""
 
 
 def summary_of(known: Known) -> dict[str, Any]:
@@ -77,6 +88,8 @@ def summary_of(known: Known) -> dict[str, Any]:
         Distance between the positions at the begin and the end of the last dive, by its duration; over ground.
     current
         Depth-averaged current of the last dive that has one, as the vehicle found it from its drift.
+    battery_lasts
+        When the energy that the vehicle says is left is used up at the mean power of the last dives.
     eta
         The distance to the waypoint by the rate at which it has become less since the last dive began.
 
@@ -98,6 +111,7 @@ def summary_of(known: Known) -> dict[str, Any]:
     found["speed_made_good"] = _speed_made_good(known.dives, missing)
     found["current"] = _current(known.dives, missing)
     found["eta"] = _eta(known, missing)
+    found["battery_lasts"] = _battery_lasts(known, missing)
     found["missing"] = missing
     if found["position"] is None and known.place[1]:
         missing["position"] = known.place[1]
@@ -142,6 +156,22 @@ def _battery(latest: Latest) -> dict[str, Any] | None:
         "share": None if share is None else share[1], "voltage_v": None if voltage is None else voltage[1],
         "t": max(pair[0] for pair in (share, voltage) if pair is not None),
     }  # fmt: skip
+
+
+def _battery_lasts(known: Known, missing: dict[str, str]) -> dict[str, Any] | None:
+    usage, name = known.usage, "battery_lasts"
+    if "energy_left_kj" not in known.latest:
+        missing[name] = "the vehicle has not told the energy that is left"
+    elif usage is None:
+        missing[name] = "fewer than two dives were seen to begin"
+    else:
+        t, left = known.latest["energy_left_kj"]
+        lasts = 1e3 * left / usage.watts if usage.watts > 0.0 else math.inf
+        if lasts <= MOST_AHEAD:
+            dives = "dive" if usage.dives == 1 else f"{usage.dives} dives"
+            return {"t": t + lasts, "why": f"at {usage.watts:.3g} W, the mean of the last {dives} and the time after each"}
+        missing[name] = f"at {usage.watts:.2g} W, as it was of late, it would last more than a year"
+    return None
 
 
 def _duration(dive: DiveRow) -> float:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from stommel.archive import Archive
 from stommel.messages.mavlink import entry_words
-from stommel.station.vehicles.summary import AT_SURFACE, Approach
+from stommel.station.vehicles.summary import AT_SURFACE, Approach, Usage
 
 LEAST_TIME = 120.0
 """Over which an approach is measured [s]."""
@@ -14,7 +14,9 @@ LEAST_TIME = 120.0
 LOOK_BACK = 12 * 3600.0
 """Of what is looked at again after a restart [s]."""
 MOST_POINTS = 20_000
-WATCHED = ("waypoint", "waypoint_distance_m", "phase")
+WATCHED = ("waypoint", "waypoint_distance_m", "phase", "energy_used_kj")
+CYCLES = 3
+"""From leaving the surface to leaving it again, over which the use of energy is averaged."""
 
 Sample = tuple[str, float, float]
 
@@ -30,6 +32,10 @@ class Underway:
         self._begins: deque[tuple[float, float]] = deque(maxlen=2)
         """When the last dives began, and how far the waypoint was then [m]."""
         self._distance: tuple[float, float] | None = None
+        self._used: float | None = None
+        """Energy that was used until now [kJ]."""
+        self._uses: deque[tuple[float, float]] = deque(maxlen=CYCLES + 1)
+        """When the last dives began, and what had been used by then [kJ]."""
         self._words = entry_words("GLIDER_PHASE")
 
     def take(self, samples: Sequence[Sample]) -> None:
@@ -44,6 +50,13 @@ class Underway:
                 self._distance = (t, value)
                 if not self._begins:
                     self._begins.append(self._distance)
+            elif key == "energy_used_kj":
+                self._take_energy(value)
+
+    def _take_energy(self, value: float) -> None:
+        if self._used is not None and value < self._used:  # counted anew, from the start of a mission
+            self._uses.clear()
+        self._used = value
 
     def _take_phase(self, t: float, value: float) -> None:
         afloat = self._words.get(int(value), "") in AT_SURFACE
@@ -51,6 +64,8 @@ class Underway:
             self.left_surface = t
             if self._distance is not None:
                 self._begins.append((t, self._distance[1]))
+            if self._used is not None:
+                self._uses.append((t, self._used))
         if afloat:
             self.left_surface = None
         self._afloat = afloat
@@ -82,3 +97,12 @@ class Underway:
             return None
         (began, before), (t, now) = begins[0], distance
         return Approach(began, (before - now) / (t - began)) if t - began >= LEAST_TIME else None
+
+    @property
+    def usage(self) -> Usage | None:
+        """Mean power of the last dives with the time at the surface between them; None before the second one begins."""
+        uses = list(self._uses)  # others ask while the line goes on
+        if len(uses) < 2 or uses[-1][0] <= uses[0][0]:
+            return None
+        (t0, first), (t1, last) = uses[0], uses[-1]
+        return Usage(1e3 * (last - first) / (t1 - t0), len(uses) - 1)

@@ -119,6 +119,8 @@ class VehicleSummary(BaseModel):
     alarms: list[VehicleAlarm]
     position: VehiclePosition | None
     battery: Battery | None
+    battery_lasts: Expected | None
+    """When it is used up, if it goes on as over the last dives."""
     next_surfacing: Expected | None
     speed_made_good: SpeedMadeGood | None
     current: Current | None

@@ -28,7 +28,7 @@ OPENS = {
     "archive/quiet_opening.py": "the head of an archive, without touching it",
     "archive/telemetry_file.py": "writes a whole file line by line",
     "station/vehicles/file_follower.py": "a file that came, to know its hash",
-    "station/vehicles/mission_follower.py": "a mission that is still to be sent",
+    "station/vehicles/mission_fetch.py": "orders that came, to know their hash",
     "station/web/built_page.py": "the built page",
     "link/files/folder_disk.py": "received files and their journals",
     "files/folder_storage.py": "the vehicle's own disk",

@@ -48,6 +48,16 @@ def test_telemetry_as_csv_is_every_sample(stommel: Command, sea: Path) -> None:
     assert [row[1] for row in rows[12:]] == ["latitude_deg", "longitude_deg"]
 
 
+def test_telemetry_as_netcdf_is_every_sample(stommel: Command, sea: Path) -> None:
+    arguments = ("--database", sea, "--vehicle", 1, "--what", "telemetry", "--output", "all.nc")
+    made = stommel("station", "export", *arguments, "--end", "2023-11-14T22:13:30")
+    assert made.status == 0, made.err
+    with xr.open_dataset(sea.with_name("all.nc"), decode_times=False) as samples:
+        assert samples["time"].values.tolist() == [T + k for k in range(11)]
+        assert samples["depth_m"].values.tolist() == [k / 2 for k in range(11)]
+        assert samples["latitude"].values == pytest.approx([30.0 + k * 1e-5 for k in range(11)])
+
+
 def test_samples_of_the_ctd_as_netcdf_and_csv(stommel: Command, sea: Path) -> None:
     for name in ("sea.nc", "sea.csv"):
         made = stommel("station", "export", "--database", sea, "--vehicle", 1, "--output", name)
@@ -65,7 +75,6 @@ def test_samples_of_the_ctd_as_netcdf_and_csv(stommel: Command, sea: Path) -> No
     [
         (("--vehicle", 2, "--output", "x.nc"), "nothing of vehicle 2 is there; there are: 1 (Kelp)"),
         (("--vehicle", 1, "--output", "x.txt"), "the name must end with .nc or .csv"),
-        (("--vehicle", 1, "--output", "x.nc", "--what", "telemetry"), "the name must end with .csv"),
         (("--vehicle", 1, "--output", "x.nc", "--begin", "2030-01-01"), "no samples of the CTD in this time"),
         (("--vehicle", 1, "--output", "x.nc", "--begin", "noon"), "must be like"),
         (("--vehicle", 1, "--output", "x.nc", "--end", "1999-01-01", "--begin", "2000-01-01"), "must not be before"),

@@ -12,11 +12,11 @@ from sqlalchemy import String, select
 
 from stommel.archive import Archive, ArchiveRequestError, Batch, CtdRow, DiveRow, TextRow
 from stommel.archive.columns import metadata
-from stommel.archive.readers import samples_between
 from stommel.archive.schema import minutes
 from stommel.archive.wording import Name
 from stommel.station.vehicles.command_rows import CommandRow, CommandRows
 from stommel.station.vehicles.mission_rows import MissionRow, MissionRows
+from tests.archive.every_sample import every_sample
 from tests.archive.test_store import T, frame
 from tests.station.speaker import speaker, until
 from tests.station.stations import station
@@ -45,8 +45,8 @@ POISONS = {
 def content(archive: Archive, vehicle: int) -> tuple[object, ...]:
     """Everything that the archive has of a vehicle, cells too."""
     with archive.reading() as connection:
-        samples = list(samples_between(connection, vehicle, T - 1e6, T + 1e6))
         cells = connection.execute(select(*list(minutes.c)[3:]).where(minutes.c.vehicle_id == vehicle)).all()
+    samples = every_sample(archive, vehicle, T - 1e6, T + 1e6)
     frames = [stored.row for stored in archive.frames(vehicle)]
     return frames, samples, cells, archive.texts(vehicle), archive.dives(vehicle), archive.ctd(vehicle)
 

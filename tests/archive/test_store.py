@@ -8,8 +8,9 @@ from sqlalchemy import func, select
 
 from stommel.archive import Archive, ArchiveRequestError, Batch, CtdRow, DiveRow, FrameRow, TextRow
 from stommel.archive.columns import metadata
-from stommel.archive.readers import frames_between, samples_between
+from stommel.archive.readers import frames_between
 from stommel.archive.schema import channels, frames, samples, vehicles
+from tests.archive.every_sample import every_sample
 
 T = 1_700_000_000.0
 
@@ -60,8 +61,7 @@ def test_a_vehicle_keeps_its_name_while_it_sends(archive: Archive) -> None:
 def test_a_sample_at_a_known_time_is_replaced(archive: Archive) -> None:
     archive.store(1, Batch(samples=[("depth_m", T, 1.0), ("depth_m", T + 1, 9.0), ("depth_m", T, 2.0)]))
     archive.store(1, Batch(samples=[("depth_m", T + 1, 3.0)]))
-    with archive.reading() as connection:
-        assert list(samples_between(connection, 1, T, T + 5)) == [("depth_m", T, 2.0), ("depth_m", T + 1, 3.0)]
+    assert every_sample(archive, 1, T, T + 5) == [("depth_m", T, 2.0), ("depth_m", T + 1, 3.0)]
 
 
 def test_a_dive_is_completed_by_a_later_row(archive: Archive) -> None:

@@ -718,6 +718,7 @@ ALL = [
             "pitch": d["pitch_deg"],
             "ballast": None,
             "waypoints": d["waypoints"],
+            "CTD": d["sample_every_s"],
             "ends by": d["alarm_energy_wh"],
             "dive ends": [d["abort_depth_m"], d["abort_hours"]],
             "expires": d["expires_hours"],

@@ -62,7 +62,7 @@ def test_every_number_comes_back_to_the_last_bit(
     orders = SMALL._replace(
         dives=dives, waypoints=np.array([place]), alarms=SMALL.alarms._replace(energy=energy, leak=False)
     )
-    header = replace(HEADER, expires_hours=expires)
+    header = replace(HEADER, expires_hours=expires, sample_every_s=None if expires is None else 0.1 + abs(theta))
     found, found_header = parse_orders(orders_text(orders, header), "orders.toml")
     assert found_header == header
     if isnan(raised):
@@ -95,6 +95,11 @@ def test_no_waypoints_and_no_alarms() -> None:
         ("[0.52, 2.09]", "[30.0, 2.09]", "waypoints_rad.0.0 = 30"),
         ("expires_hours = 48.0", "expires_hours = 0", "expires_hours = 0: must be between 0.01 and 17520 h"),
         ("step_s = 1.0", "", "step_s"),
+        (
+            "step_s = 1.0",
+            "step_s = 1.0\nsample_every_s = 4e3",
+            "sample_every_s = 4000.0: must be between 0.1 and 3600",
+        ),
     ],
 )
 def test_impossible_orders_are_refused(tmp_path: Path, old: str, new: str, words: str) -> None:

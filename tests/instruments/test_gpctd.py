@@ -123,6 +123,7 @@ def test_stored_error_values_are_no_reading(line: bytes, name: str) -> None:
     ],
 )
 def test_live_error_values_are_no_reading(line: bytes, name: str, word: str) -> None:
+    """c-proof/pyglider#143, #123: 9999 of the CTD was taken as a pressure; ashore it comes as no value."""
     reading = live_reading(line, VARIANTS["plain"], 1.0)
     assert reading is not None
     assert math.isnan(getattr(reading, name))

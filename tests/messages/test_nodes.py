@@ -57,7 +57,7 @@ def test_what_a_node_says_is_known() -> None:
 
 @pytest.mark.parametrize("missed", [1, 2, 3])
 def test_lost_frames_are_a_count_and_no_alarm(missed: int) -> None:
-    """Field report 30: one lost frame was an alarm."""
+    """Field report 30, ArduPilot/ardupilot#13033: one lost frame was an alarm."""
     bus = Bus()
     for t in range(20):
         frames = bus.sender.poll(float(t), NodeState.Operational)
@@ -119,7 +119,7 @@ def test_a_node_with_another_database_is_refused_and_named() -> None:
 
 
 def test_strangers_are_named() -> None:
-    """Field report 29: unknown nodes were refused in silence."""
+    """Field report 29, PX4/PX4-Autopilot#28243: unknown nodes were refused in silence."""
     bus = Bus()
     bus.hear([Frame(0x709, bytes(8)), Frame(0x729, bytes(8)), Frame(0x709, bytes(8)), Frame(0x333, b"")], 0.0)
     bus.hear([Frame(0x702, bytes(7)), Frame(0x702, bytes(8))], 0.0)

@@ -22,6 +22,7 @@ from tests.page.waiting import PATIENCE_S, Traffic
 
 if TYPE_CHECKING:
     from tests.page.past import Past
+    from tests.page.quay import Quay
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILT = Path(stommel.__file__).parent / "station" / "built" / "index.html"
@@ -185,6 +186,15 @@ def past(built: None, tmp_path_factory: pytest.TempPathFactory) -> "Iterator[Pas
     from tests.page.past import past_station
 
     with past_station(tmp_path_factory.mktemp("past")) as found:
+        yield found
+
+
+@pytest.fixture(scope="package")
+def quay(built: None, tmp_path_factory: pytest.TempPathFactory) -> "Iterator[Quay]":
+    """A real station whose vehicle has files, parameters and missions over a slow line, and whose disk may be full."""
+    from tests.page.quay import quay_station
+
+    with quay_station(tmp_path_factory.mktemp("quay")) as found:
         yield found
 
 

@@ -46,6 +46,8 @@ CHANNELS: list[tuple[str, str, str, str, float]] = [
 STATES = {0: "start-up", 1: "hold", 2: "communicate", 3: "mission", 4: "ascend", 5: "recover", 6: "abort"}
 PHASES = {0: "surface", 1: "descent", 2: "inflection", 3: "ascent", 4: "recovery", 5: "drift"}
 
+WAITING = {"commands": 0, "parameters": 0, "missions": 0, "transfers": 0, "abort": None}
+
 
 def phase_of(u: float) -> int:
     """Phase at a share u of the dive, beyond 1 at the surface."""
@@ -107,16 +109,18 @@ def summary(vehicle: int, now: float, speed: float) -> dict[str, Any]:
         return {
             "vehicle": 2, "name": "Sea-Wing 12", "model": "seawing", "simulated": False, "speed": 1.0, "now": now,
             "heard": False, "link_reason": "waits for the first frame on serial /dev/ttyUSB0", "alarms": [],
-            **dict.fromkeys(empty), "missing": dict.fromkeys(empty, reason),
+            **dict.fromkeys(empty), "missing": dict.fromkeys(empty, reason), "told": {}, "waiting": WAITING,
         }  # fmt: skip
     found = values(now)
     dive_begin = EPOCH + (found["dive"] - 1.0) * CYCLE_S
     up = dive_begin + DIVE_S
+    last = {"dive": int(found["dive"]) - 1, "t": dive_begin - SURFACE_S}
     return {
         "vehicle": 1, "name": "ZJU glider", "model": "zju", "simulated": True, "speed": speed, "now": now,
         "heard": True, "last_contact": now - 3.0, "link_reason": None, "state": STATES[int(found["state"])],
         "phase": PHASES[int(found["phase"])], "dive": int(found["dive"]), "waypoint": 2, "mission": "east china sea",
-        "alarms": [{"key": "position_sigma_m", "words": "the position may be wrong by 380 m", "severity": "caution"}]
+        "alarms": [{"id": 1, "vehicle": 1, "key": "position_sigma_m", "words": "the position may be wrong by 380 m",
+                    "severity": "warning", "raised": dive_begin, "acknowledged": None, "acknowledged_by": None}]
         if found["position_sigma_m"] > 200.0
         else [],
         "position": {"latitude": found["latitude_deg"], "longitude": found["longitude_deg"], "t": now - 3.0,
@@ -125,8 +129,10 @@ def summary(vehicle: int, now: float, speed: float) -> dict[str, Any]:
         "next_surfacing": {"t": up, "why": f"end of dive {int(found['dive'])} as the last dives went"}
         if now < up
         else None,
-        "speed_made_good": {"m_s": 0.29, "course_deg": 112.0},
-        "current": {"north_m_s": 0.06, "east_m_s": 0.17, "dive": int(found["dive"]) - 1},
+        "speed_made_good": {"m_s": 0.29, "course_deg": 112.0, **last},
+        "current": {"north_m_s": 0.06, "east_m_s": 0.17, **last},
+        "told": dict.fromkeys(("state", "phase", "dive", "waypoint", "mission", "waypoint_distance_m"), now - 3.0),
         "waypoint_distance_m": found["waypoint_distance_m"], "eta": {"t": now + found["waypoint_distance_m"] / 0.29},
         "missing": {} if now < up else {"next_surfacing": "it is at the surface"}, "holder": "anna",
+        "waiting": WAITING,
     }  # fmt: skip

@@ -211,8 +211,8 @@ def told(subscription: dict[str, Any]) -> dict[str, Any]:
     found = glider.values(t)
     names = [name for name in subscription["channels"] if name in found]
     if subscription.get("every"):
-        return {"type": "samples", "now": t, "samples": {name: [[t], [found[name]]] for name in names}}
-    return {"type": "values", "now": t, "values": {name: [t, found[name]] for name in names}}
+        return {"type": "samples", "now": t, "samples": {name: [[t], [found[name]]] for name in names}, "periods": {}}
+    return {"type": "values", "now": t, "values": {name: [t, found[name]] for name in names}, "periods": {}}
 
 
 @app.websocket("/api/live")

@@ -81,6 +81,8 @@ def test_a_limit_is_set_changed_drawn_and_removed(page: Any, past: Past) -> None
     told = {key: limits(past)["heading_deg"][key] for key in ("low", "high", "hysteresis", "delay_s", "severity")}
     assert told == {"low": 91.0, "high": 99.5, "hysteresis": 1.5, "delay_s": 30.0, "severity": "notice"}
 
+    row.get_by_text("local, 2").wait_for()  # who set it, and the day
+
     row.click()
     page.get_by_label("Least value").fill("")
     page.get_by_role("button", name="Set").click()

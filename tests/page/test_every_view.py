@@ -8,7 +8,7 @@ import pytest
 
 from tests.page.waiting import at_rest
 
-STATION_VIEWS = ("fleet", "map", "people")
+STATION_VIEWS = ("fleet", "map", "all-alarms", "people")
 VEHICLE_VIEWS = (
     "vehicle", "plots", "data", "commands", "parameters", "plan", "link", "files", "alarms", "replay", "log",
 )  # fmt: skip

@@ -7,49 +7,8 @@ from typing import Any
 import pytest
 
 from tests.page import fake_glider as glider
+from tests.page.played_station import NOW, PlayedStation
 from tests.page.waiting import until
-
-NOW = glider.EPOCH + 5000.0
-
-
-class PlayedStation:
-    """Takes the page's sockets one after another; says what the test says, and remembers what was asked."""
-
-    def __init__(self, page: Any) -> None:
-        self.sockets: list[Any] = []
-        self.asked: list[list[dict[str, Any]]] = []
-        self._told: dict[str, tuple[float, float, float]] = {}
-        page.route_web_socket(re.compile("/api/live$"), self._open)
-
-    def _open(self, socket: Any) -> None:
-        asked: list[dict[str, Any]] = []
-        self.sockets.append(socket)
-        self.asked.append(asked)
-        self._told.clear()
-        socket.on_message(lambda text: self._hear(asked, json.loads(text)))
-        hello = [glider.summary(1, NOW, 20.0), glider.summary(2, NOW, 1.0)]
-        socket.send(json.dumps({"type": "hello", "now": NOW, "vehicles": hello}))
-
-    def _hear(self, asked: list[dict[str, Any]], message: dict[str, Any]) -> None:
-        asked.append(message)
-        if message["type"] == "subscribe":
-            for channel in set(message["channels"]) & set(self._told):
-                self._say(message["id"], channel)
-
-    def _say(self, identity: str, channel: str) -> None:
-        t, value, now = self._told[channel]
-        message = {"type": "values", "id": identity, "vehicle": 1, "now": now, "values": {channel: [t, value]}}
-        self.sockets[-1].send(json.dumps(message))
-
-    def ids(self, channel: str) -> list[str]:
-        """Subscriptions of the present socket that hold a channel."""
-        return [m["id"] for m in self.asked[-1] if m["type"] == "subscribe" and channel in m["channels"]]
-
-    def tell(self, channel: str, t: float, value: float, now: float = NOW) -> None:
-        """Say a value to all who have asked for it on the present socket, and to those who still will."""
-        self._told[channel] = (t, value, now)
-        for identity in self.ids(channel):
-            self._say(identity, channel)
 
 
 @pytest.fixture
@@ -80,6 +39,18 @@ def test_after_a_lost_socket_every_tile_shows_its_latest_value_and_age(page: Any
     water.get_by_text("14.5").wait_for()
     until(page, lambda: "stale" in (water.get_attribute("class") or ""))
     water.get_by_text(re.compile("^old, (49|50|51)")).wait_for()
+
+
+def test_a_value_is_old_by_the_period_in_which_it_comes(page: Any, played: PlayedStation) -> None:
+    """A slow line brings the depth each hour instead of every 2 s: 90 min are usual then, and old on a quick line."""
+    depth = tile(page, "Depth")
+    played.tell("depth_m", NOW - 5400.0, 87.25, periods={"depth_m": 3600.0})
+    depth.get_by_text("87.3").wait_for()
+    depth.get_by_text(re.compile(r"^9\d")).wait_for()
+    assert "stale" not in str(depth.get_attribute("class"))
+    played.tell("depth_m", NOW - 5400.0, 88.25, periods={"depth_m": 2.0})
+    depth.get_by_text("88.3").wait_for()
+    depth.get_by_text(re.compile(r"^old, 9\d")).wait_for()
 
 
 def test_a_subscription_that_fails_leaves_the_others_alone(page: Any, played: PlayedStation) -> None:

@@ -92,3 +92,36 @@ def test_nobody_is_kept_from_the_log_book(page: Any, past: Past, serious: Any) -
     """axe-core: no serious finding."""
     at_rest(opened(page, past))
     assert serious() == []
+
+
+def test_hand_overs_limits_and_notes_about_all_stand_beside_the_rest(page: Any, past: Past, screenshot: Any) -> None:
+    """What a change of watch asks for: who took command, who changed which limit, what was written for everybody."""
+    with httpx.Client(base_url=f"{past.address}/api", timeout=60.0) as person:
+        person.post("/vehicles/1/holder", json={}).raise_for_status()
+        person.delete("/vehicles/1/holder").raise_for_status()
+        opened(page, past)
+        page.locator("li.hold", has_text="Gave up command").first.wait_for()
+        person.put("/vehicles/1/limits/roll_deg", json={"high": 33.0}).raise_for_status()
+        page.locator("li.limit", has_text="at most 33").wait_for()  # by itself
+        person.delete("/vehicles/1/limits/roll_deg").raise_for_status()
+    page.get_by_label("all vehicles").check()
+    page.get_by_role("textbox", name="Note").fill("Typhoon on Thursday.")
+    page.get_by_role("button", name="Write").click()
+    note = page.locator("li.note", has_text="Typhoon on Thursday.")
+    note.get_by_text("station", exact=True).wait_for()
+    assert httpx.get(f"{past.address}/api/notes?search=Typhoon").json()[0]["vehicle"] is None
+    at_rest(page)
+    screenshot("log-whole")
+    page.get_by_role("button", name="Hand-overs").click()
+    note.wait_for(state="detached")
+    page.locator("li.hold").first.wait_for()
+
+
+def test_a_note_is_begun_from_the_time_that_plots_show(page: Any, past: Past) -> None:
+    page.goto(f"{past.address}/#/vehicle/1/plots?window={past.begin:.0f}-{past.begin + 1800.0:.0f}")
+    page.get_by_role("link", name="Note", exact=True).click()
+    page.get_by_role("textbox", name="Note").fill("Began to drift here.")
+    page.get_by_role("button", name="Write").click()
+    page.get_by_text("The note stands in the log book.").wait_for()
+    note = httpx.get(f"{past.address}/api/notes?vehicle=1&search=drift").json()[0]
+    assert note["t"] == past.begin + 1800.0

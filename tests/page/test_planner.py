@@ -160,6 +160,17 @@ def test_a_preview_tells_what_the_simulator_found_and_grows_old_with_the_plan(vi
     assert f"{100 * result['battery_left_share']:.0f} %" in shown
     assert f"{result['energy_j'] / 3600:.0f} Wh" in shown
     screenshot("planner")
+    view.get_by_text("Waypoints and dives, one by one").click()
+    waypoints = view.get_by_role("table", name="When each waypoint is reached").locator("tbody tr")
+    becomes(view, waypoints.count, len(result["waypoints"]))
+    for row, told_of in zip(waypoints.all_inner_texts(), result["waypoints"], strict=True):
+        reached = told_of["reached_utc"]
+        assert ("not reached" in row) != told_of["reached"]
+        assert reached is None or reached[11:16] in row
+    dives = view.get_by_role("table", name="Predicted dives").locator("tbody tr")
+    assert dives.count() == min(200, len(result["dives"]))
+    assert f"{result['dives'][0]['greatest_depth_m']:.0f}" in dives.first.inner_text()
+    screenshot("planner-foreseen")
     view.locator("[data-key='dives.depth_m']").fill("50")
     view.get_by_text("Of the plan before its last changes").wait_for()
 

@@ -1,6 +1,7 @@
 """Every command of the table, given by radio to a vehicle in the loop and followed to its last word."""
 
 import hashlib
+from dataclasses import replace
 
 import pytest
 
@@ -80,16 +81,23 @@ def test_an_abort_is_cleared_and_the_mission_begins_anew(flight: Flight) -> None
     flight.until(lambda: mode(flight) is Mode.COMMUNICATE, 400)
 
 
+def told_ctd(flight: Flight) -> float:
+    """How often the CTD's node was told to sample [s]."""
+    return float(flight.system.acquisition._interval)
+
+
 def test_missions_are_switched_and_rolled_back_by_command(flight: Flight, trial: Mission) -> None:
     end, coordinator = flight.shore.end, flight.system.coordinator
     before = coordinator.pilot.orders
     assert before is not None
     other = before._replace(radius=before.radius + 7.0)
-    end.orders.send(orders_text(other, orders_header(trial)).encode(), flight.now, 600.0, only_check=True)
+    header = replace(orders_header(trial), sample_every_s=4.0)
+    end.orders.send(orders_text(other, header).encode(), flight.now, 600.0, only_check=True)
     flight.until(lambda: end.orders.outcome is not None)
     assert end.orders.outcome is not None
     assert end.orders.outcome.ending is Ending.WHOLE, end.orders.outcome.words
     assert coordinator.mission == 1
+    usual = told_ctd(flight)
     wrong = given(flight, "switch-mission", mission=9.0)
     assert wrong.state is State.FAILED
     assert "number 2" in wrong.words
@@ -97,9 +105,11 @@ def test_missions_are_switched_and_rolled_back_by_command(flight: Flight, trial:
     flight.until(lambda: coordinator.mission == 2, 10)
     assert coordinator.pilot.orders is not None
     assert coordinator.pilot.orders.radius == before.radius + 7.0
+    flight.until(lambda: told_ctd(flight) == 4.0, 10)
     assert given(flight, "roll-back-mission").state is State.DONE
     flight.until(lambda: coordinator.mission == 3, 10)
     assert coordinator.pilot.orders.radius == before.radius
+    flight.until(lambda: told_ctd(flight) == usual, 10)
     end.orders.ask(flight.now, 600.0)
     flight.until(lambda: end.orders.outcome is not None)
     assert end.orders.outcome.held is not None

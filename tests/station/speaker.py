@@ -20,6 +20,7 @@ class Speaker:
     def __init__(self, system: int = 1) -> None:
         self.system, self.sequence = system, 0
         self._listening = socket.create_server(("127.0.0.1", 0))
+        self._place: tuple[str, int] = self._listening.getsockname()
         self._socket: socket.socket | None = None
         self._splitter = FrameSplitter()
         self.heard: list[RawFrame] = []
@@ -46,6 +47,16 @@ class Speaker:
         if self._socket is not None:
             self._socket.close()
             self._socket = None
+
+    def leave(self) -> None:
+        """Lose the connection, and let nobody connect."""
+        self.hang_up()
+        self._listening.close()
+
+    def come_back(self) -> None:
+        """Let the station connect again, where it did before."""
+        self._listening = socket.create_server(self._place)
+        self.connect()
 
     def frame(self, name: str, values: Fields, component: int = 1) -> bytes:
         """The next frame."""

@@ -2,6 +2,9 @@
 
 import type { VehicleKey } from './types';
 
+/** Whose clock tells the times of what belongs to no vehicle. */
+export const STATION = 'station';
+
 interface Told {
   now: number;
   speed: number;

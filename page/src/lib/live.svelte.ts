@@ -1,7 +1,7 @@
 // The live socket: comes back by itself, and takes its subscriptions with it.
 
-import { clock } from './clock.svelte';
-import type { EventKind, LiveMessage, LiveRequest, StationEvent, VehicleKey, VehicleSummary } from './types';
+import { clock, STATION } from './clock.svelte';
+import type { Channel, EventKind, LiveMessage, LiveRequest, StationEvent, VehicleKey, VehicleSummary } from './types';
 
 export type LinkState = 'connecting' | 'open' | 'lost';
 export type Values = Extract<LiveMessage, { type: 'values' }>['values'];
@@ -33,6 +33,8 @@ class Live {
   /** performance.now() of the moment in which the socket was lost. */
   lostAt = $state<number | undefined>(undefined);
   summaries = $state.raw<Record<string, VehicleSummary>>({});
+  /** Usual time between two values, s, by vehicle or replay and by channel. */
+  private periods = $state.raw<Record<string, Record<string, number>>>({});
   private socket: WebSocket | undefined;
   private subscriptions = new Map<string, Subscription>();
   private handlers = new Map<string, Set<(event: StationEvent) => void>>();
@@ -89,10 +91,18 @@ class Live {
     return () => set.delete(known);
   }
 
-  /** Calls back whenever the station greets, also after a loss: the clock is known then, and lists that grow by events are to be asked for again. */
+  /**
+   * Calls back whenever the station greets, also after a loss, and when it says that events were lost: the clock is known
+   * then, and lists that grow by events are to be asked for again.
+   */
   onOpen(handler: () => void): () => void {
     this.whenOpen.add(handler);
     return () => this.whenOpen.delete(handler);
+  }
+
+  /** Usual time between two values of a channel, s: as they come, or as the table of channels says. */
+  period_s(vehicle: VehicleKey, channel: Channel): number {
+    return this.periods[vehicle]?.[channel.key] ?? channel.period_s;
   }
 
   /** Takes over a summary that came another way. */
@@ -159,14 +169,23 @@ class Live {
     this.listen();
     const message = JSON.parse(text) as LiveMessage;
     if ('vehicle' in message && message.vehicle !== null && 'now' in message) clock.tell(message.vehicle, message.now);
+    if ('periods' in message) this.learn(message.vehicle, message.periods);
     const listener = 'id' in message ? this.subscriptions.get(message.id)?.listener : undefined;
     if (message.type === 'values') listener?.values?.(message.values, message.now);
     else if (message.type === 'samples') listener?.samples?.(message.samples, message.now);
-    else if (message.type === 'gap') listener?.gap?.('from' in message ? message.from : undefined);
+    else if (message.type === 'gap') {
+      if ('from' in message) listener?.gap?.(message.from);
+      else this.whenOpen.forEach((handler) => handler());
+    }
     else if (message.type === 'error') this.refused(message.id, message.reason);
-    else if (message.type === 'hello') this.greet(message.vehicles);
+    else if (message.type === 'hello') this.greet(message);
     else if (message.type === 'summary') this.put(message.summary);
     else if (message.type === 'event') this.handlers.get(message.kind)?.forEach((handler) => handler(message));
+  }
+
+  private learn(vehicle: VehicleKey, periods: Record<string, number>): void {
+    if (Object.keys(periods).length === 0) return;
+    this.periods = { ...this.periods, [vehicle]: { ...this.periods[vehicle], ...periods } };
   }
 
   private refused(id: string, reason: string): void {
@@ -175,7 +194,8 @@ class Live {
     listener?.error?.(reason);
   }
 
-  private greet(vehicles: VehicleSummary[]): void {
+  private greet({ now, vehicles }: Extract<LiveMessage, { type: 'hello' }>): void {
+    clock.tell(STATION, now, 1);
     const summaries: Record<string, VehicleSummary> = {};
     for (const summary of vehicles) {
       clock.tell(summary.vehicle, summary.now, summary.speed);

@@ -10,11 +10,12 @@ class Notices {
   list = $state.raw<Notice[]>([]);
   private count = 0;
 
-  add(kind: Notice['kind'], words: string): void {
+  /** What was done goes by itself, unless it is to last until somebody has read it. */
+  add(kind: Notice['kind'], words: string, lasts = kind === 'problem'): void {
     this.count += 1;
     const notice = { id: this.count, kind, words };
     this.list = [...this.list.slice(-3), notice];
-    if (kind === 'done') setTimeout(() => this.remove(notice.id), 6000);
+    if (!lasts) setTimeout(() => this.remove(notice.id), 6000);
   }
 
   remove(id: number): void {

@@ -170,6 +170,7 @@ export interface components {
             north_m_s: number;
             east_m_s: number;
             dive: number;
+            t: number;
         };
         Curve: {
             t: number[];
@@ -332,6 +333,22 @@ export interface components {
             reason: string;
             problems: components["schemas"]["Problem"][];
         };
+        KeptLimit: {
+            low: number | null;
+            high: number | null;
+            /** @default 0 */
+            hysteresis: number;
+            /** @default 0 */
+            delay_s: number;
+            /**
+             * @default warning
+             * @enum {string}
+             */
+            severity: "notice" | "warning" | "critical";
+            channel: string;
+            changed: number;
+            changed_by: string;
+        };
         Latest: {
             now: number;
             values: {
@@ -419,8 +436,9 @@ export interface components {
         };
         LogEntry: {
             /** @enum {string} */
-            kind: "alarm" | "command" | "mission" | "note" | "text";
+            kind: "alarm" | "command" | "hold" | "limit" | "mission" | "note" | "parameter" | "text" | "transfer";
             id: string;
+            vehicle: number | null;
             t: number;
             user: string | null;
             words: string;
@@ -451,8 +469,9 @@ export interface components {
             name: string;
             sha256: string;
             /** @enum {string} */
-            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted";
+            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted" | "cancelled" | "superseded" | "expired";
             words: string;
+            expires: number | null;
         };
         MissionAboard: {
             number: number | null;
@@ -466,6 +485,7 @@ export interface components {
             depth_m: number | null;
             mission: components["schemas"]["Mission"] | null;
             upload: components["schemas"]["MissionOnItsWay"] | null;
+            roll_back: components["schemas"]["RollBackOnItsWay"] | null;
             waiting: number;
         };
         MissionDetail: {
@@ -476,8 +496,9 @@ export interface components {
             name: string;
             sha256: string;
             /** @enum {string} */
-            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted";
+            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted" | "cancelled" | "superseded" | "expired";
             words: string;
+            expires: number | null;
             orders: string;
             plan: {
                 [key: string]: unknown;
@@ -492,8 +513,9 @@ export interface components {
             name: string;
             sha256: string;
             /** @enum {string} */
-            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted";
+            state: "waiting" | "sending" | "aboard" | "replaced" | "refused" | "failed" | "interrupted" | "cancelled" | "superseded" | "expired";
             words: string;
+            expires: number | null;
             progress: components["schemas"]["UploadProgress"] | null;
         };
         MissionStep: {
@@ -534,7 +556,7 @@ export interface components {
             preview?: {
                 [key: string]: unknown;
             } | null;
-            /** @default 21600 */
+            /** @default 86400 */
             valid_for_s: number;
         };
         NewNote: {
@@ -578,6 +600,14 @@ export interface components {
             written: number;
             user: string;
             words: string;
+        };
+        OpenAbort: {
+            id: string;
+            /** @enum {string} */
+            step: "waits" | "sent" | "aboard";
+            words: string;
+            given: number;
+            expires: number;
         };
         OpenedPlan: {
             plan: components["schemas"]["StationPlan"];
@@ -772,8 +802,12 @@ export interface components {
         /** @enum {string} */
         Role: "viewer" | "pilot" | "admin";
         RollBack: {
-            /** @default 21600 */
+            /** @default 86400 */
             valid_for_s: number;
+        };
+        RollBackOnItsWay: {
+            user: string;
+            expires: number;
         };
         RudderShape: {
             x_m: number;
@@ -856,6 +890,8 @@ export interface components {
         SpeedMadeGood: {
             m_s: number;
             course_deg: number;
+            dive: number;
+            t: number;
         };
         StartedJob: {
             job: string;
@@ -1072,10 +1108,15 @@ export interface components {
             password?: string | null;
         };
         VehicleAlarm: {
+            id: number | null;
+            vehicle: number | null;
             key: string;
             words: string;
             /** @enum {string} */
             severity: "notice" | "warning" | "critical";
+            raised: number | null;
+            acknowledged: number | null;
+            acknowledged_by: string | null;
         };
         VehicleDetail: {
             vehicle: number;
@@ -1103,7 +1144,11 @@ export interface components {
             missing: {
                 [key: string]: string;
             };
+            told: {
+                [key: string]: number;
+            };
             holder: string | null;
+            waiting: components["schemas"]["Waiting"];
             channels: components["schemas"]["ChannelInfo"][];
             limits: components["schemas"]["Limit"][];
             shape: components["schemas"]["Shape"] | null;
@@ -1143,7 +1188,22 @@ export interface components {
             missing: {
                 [key: string]: string;
             };
+            told: {
+                [key: string]: number;
+            };
             holder: string | null;
+            waiting: components["schemas"]["Waiting"];
+        };
+        Waiting: {
+            /** @default 0 */
+            commands: number;
+            /** @default 0 */
+            parameters: number;
+            /** @default 0 */
+            missions: number;
+            /** @default 0 */
+            transfers: number;
+            abort?: components["schemas"]["OpenAbort"] | null;
         };
         Water: {
             /**
@@ -1372,6 +1432,9 @@ export interface components {
                     number[]
                 ];
             };
+            periods: {
+                [key: string]: number;
+            };
         };
         Subscribe: {
             /**
@@ -1433,6 +1496,9 @@ export interface components {
                     number
                 ];
             };
+            periods: {
+                [key: string]: number;
+            };
         };
     };
     responses: never;
@@ -1481,6 +1547,7 @@ export type Hold = components['schemas']['Hold'];
 export type HolderInfo = components['schemas']['HolderInfo'];
 export type Job = components['schemas']['Job'];
 export type JobError = components['schemas']['JobError'];
+export type KeptLimit = components['schemas']['KeptLimit'];
 export type Latest = components['schemas']['Latest'];
 export type LatestValue = components['schemas']['LatestValue'];
 export type LayerRow = components['schemas']['LayerRow'];
@@ -1510,6 +1577,7 @@ export type NewTransfer = components['schemas']['NewTransfer'];
 export type NewUser = components['schemas']['NewUser'];
 export type NewValue = components['schemas']['NewValue'];
 export type NoteRow = components['schemas']['NoteRow'];
+export type OpenAbort = components['schemas']['OpenAbort'];
 export type OpenedPlan = components['schemas']['OpenedPlan'];
 export type OrdersBody = components['schemas']['OrdersBody'];
 export type Parameter = components['schemas']['Parameter'];
@@ -1535,6 +1603,7 @@ export type ReplayChange = components['schemas']['ReplayChange'];
 export type ReplayState = components['schemas']['ReplayState'];
 export type Role = components['schemas']['Role'];
 export type RollBack = components['schemas']['RollBack'];
+export type RollBackOnItsWay = components['schemas']['RollBackOnItsWay'];
 export type RudderShape = components['schemas']['RudderShape'];
 export type Sampling = components['schemas']['Sampling'];
 export type Section = components['schemas']['Section'];
@@ -1563,6 +1632,7 @@ export type VehicleAlarm = components['schemas']['VehicleAlarm'];
 export type VehicleDetail = components['schemas']['VehicleDetail'];
 export type VehiclePosition = components['schemas']['VehiclePosition'];
 export type VehicleSummary = components['schemas']['VehicleSummary'];
+export type Waiting = components['schemas']['Waiting'];
 export type Water = components['schemas']['Water'];
 export type Waypoint = components['schemas']['Waypoint'];
 export type WingShape = components['schemas']['WingShape'];

@@ -1,8 +1,8 @@
 // The sound of alarms: a few tones when one is raised, again while a critical one waits for somebody.
 
-import { live } from './live.svelte';
+import { untrack } from 'svelte';
+import { type OpenAlarm, openAlarms } from './open_alarms';
 import { identityOf } from './severity';
-import type { AlarmRow } from './types';
 
 const KEY = 'stommel-sound';
 const AGAIN_MS = 20_000;
@@ -33,10 +33,15 @@ class Sound {
   private timer: ReturnType<typeof setInterval> | undefined;
   private unlisten: (() => void) | undefined;
 
-  /** Listens to the alarms of all vehicles until `stop`. */
+  /** Listens to the alarms of all vehicles until `stop`; what was raised while the page was away is heard now. */
   start(): void {
     if (this.unlisten) return;
-    this.unlisten = live.on('alarm', (event) => this.hear(event.data));
+    this.unlisten = $effect.root(() => {
+      $effect(() => {
+        const open = openAlarms();
+        untrack(() => this.hear(open));
+      });
+    });
     this.timer = setInterval(() => this.again(), AGAIN_MS);
     window.addEventListener('pointerdown', this.touched);
     window.addEventListener('keydown', this.touched);
@@ -60,7 +65,6 @@ class Sound {
       // Storage is switched off: the choice lasts as long as the page.
     }
     if (isOn) this.play('notice');
-    else this.waiting.clear();
   }
 
   play(severity: string): void {
@@ -76,15 +80,12 @@ class Sound {
     if (this.isOn && this.context?.state === 'suspended') void this.context.resume().then(() => (this.isWaiting = false));
   };
 
-  private hear(alarm: AlarmRow): void {
-    const isOver = alarm.acknowledged !== null || alarm.cleared !== null;
-    if (isOver) {
-      this.waiting.delete(identityOf(alarm));
-      return;
-    }
-    const isNew = !this.waiting.has(identityOf(alarm));
-    this.waiting.set(identityOf(alarm), alarm.severity);
-    if (this.isOn && isNew) this.play(alarm.severity);
+  /** Sounds as the worst of those that nobody has acknowledged and that were not heard before. */
+  private hear(open: readonly OpenAlarm[]): void {
+    const waiting = open.filter((alarm) => alarm.acknowledged === null);
+    const [worst] = waiting.filter((alarm) => !this.waiting.has(identityOf(alarm)));
+    this.waiting = new Map(waiting.map((alarm) => [identityOf(alarm), alarm.severity]));
+    if (this.isOn && worst) this.play(worst.severity);
   }
 
   private again(): void {

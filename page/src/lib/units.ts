@@ -9,6 +9,12 @@ export function number(value: number | null | undefined, digits = 1): string {
   return value < 0 && Number(text) !== 0 ? MINUS + text : text;
 }
 
+/** A number of things, its thousands apart. */
+export function counted(count: number, thing: string): string {
+  const digits = String(count).replace(/\B(?=(\d{3})+$)/g, THIN);
+  return `${digits} ${thing}${count === 1 ? '' : 's'}`;
+}
+
 /** Digits after the point that a value of this size deserves. */
 export function digitsFor(value: number, unit = ''): number {
   const size = Math.abs(value);

@@ -11,12 +11,13 @@ export class VehicleInfo {
   shape = $state.raw<Shape | null>(null);
   loaded = $state(false);
   reason = $state<string | undefined>(undefined);
+  private isLoading = false;
 
   constructor(vehicle: number) {
     this.vehicle = vehicle;
     void this.load();
     live.onOpen(() => {
-      if (!this.loaded) void this.load();
+      if (!this.isLoading) void this.load();
     });
     live.on('limit', (event) => {
       if (event.vehicle === vehicle) void this.load();
@@ -28,18 +29,25 @@ export class VehicleInfo {
   }
 
   async load(): Promise<void> {
+    this.isLoading = true;
     try {
       const detail = await api.get<VehicleDetail>(`/vehicles/${this.vehicle}`);
-      live.put(detail);
-      this.channels = detail.channels ?? (await api.get<Channel[]>(`/vehicles/${this.vehicle}/channels`));
+      if (live.state !== 'open') live.put(detail);
+      this.channels = same(this.channels, detail.channels ?? (await api.get<Channel[]>(`/vehicles/${this.vehicle}/channels`)));
       this.limits = byChannel(detail.limits ?? []);
-      this.shape = detail.shape ?? (await api.get<Shape>(`/vehicles/${this.vehicle}/shape`).catch(() => null));
+      this.shape = same(this.shape, detail.shape ?? (await api.get<Shape>(`/vehicles/${this.vehicle}/shape`).catch(() => null)));
       this.loaded = true;
       this.reason = undefined;
     } catch (error) {
       this.reason = sentence(error);
     }
+    this.isLoading = false;
   }
+}
+
+/** What was known before, where what is found is equal to it: nobody who looks at it has to look again. */
+function same<T>(known: T, found: T): T {
+  return JSON.stringify(known) === JSON.stringify(found) ? known : found;
 }
 
 function byChannel(limits: Limit[] | Record<string, Limit>): Record<string, Limit> {

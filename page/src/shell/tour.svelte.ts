@@ -1,4 +1,5 @@
-// Whether the first five minutes are shown, and where they are. A browser that has seen them is left alone.
+// Whether the first five minutes are shown, and where they are. A station that is a demonstration shows them by itself;
+// a browser that has seen them is left alone.
 
 const KEY = 'stommel-tour';
 
@@ -11,10 +12,15 @@ function seen(): boolean {
 }
 
 class TourState {
-  step = $state<number | undefined>(seen() ? undefined : 0);
+  step = $state<number | undefined>(undefined);
 }
 
 export const tour = new TourState();
+
+/** Show it by itself, to a browser that has not seen it. */
+export function offerTour(): void {
+  if (!seen()) tour.step ??= 0;
+}
 
 export function startTour(): void {
   tour.step = 0;

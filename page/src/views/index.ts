@@ -26,6 +26,7 @@ export type View = VehicleView | StationView;
 export const views: readonly View[] = [
   { name: 'fleet', title: 'Fleet', key: 'f', of: 'station', load: () => import('./fleet/Fleet.svelte') },
   { name: 'map', title: 'Map', key: 'm', of: 'station', load: () => import('./map/MapView.svelte') },
+  { name: 'all-alarms', title: 'All alarms', key: 'w', of: 'station', load: () => import('./alarms/AllAlarms.svelte') },
   { name: 'people', title: 'People', key: 'u', role: 'viewer', of: 'station', load: () => import('./people/People.svelte') },
   { name: 'vehicle', title: 'Overview', key: 'v', of: 'vehicle', load: () => import('./vehicle/Vehicle.svelte') },
   { name: 'plots', title: 'Plots', key: 'p', of: 'vehicle', load: () => import('./plots/Plots.svelte') },

@@ -16,7 +16,7 @@ from stommel.archive.connecting import WRITING, engine_of
 from stommel.archive.curves import ChannelReader
 from stommel.archive.errors import ArchiveBusyError, ArchiveFullError, ArchiveRequestError, telling
 from stommel.archive.latest import latest_values
-from stommel.archive.readers import StoredFrame, stored_ctd, stored_dives, stored_frames, stored_texts
+from stommel.archive.readers import StoredFrame, kept_messages, stored_ctd, stored_dives, stored_frames, stored_texts
 from stommel.archive.rows import Batch, CtdRow, DiveRow, TextRow
 from stommel.archive.schema import channels, vehicles
 from stommel.archive.series import Series, read_series, window_of
@@ -206,6 +206,11 @@ class Archive:
         """The newest frames of a vehicle, newest first: at most `limit`, below the number `before`, of one message."""
         with self.reading() as connection:
             return stored_frames(connection, vehicle, before=before, limit=limit, message=message)
+
+    def messages(self, vehicle: int) -> list[int]:
+        """Numbers of the messages of which a vehicle has frames."""
+        with self.reading() as connection:
+            return kept_messages(connection, vehicle)
 
     def texts(
         self, vehicle: int, *, begin: float = 0.0, end: float = GREATEST_TIME, limit: int = 1000

@@ -11,6 +11,7 @@ from stommel.archive.archive import Archive
 from stommel.archive.ctd_storing import HOUR_US
 from stommel.archive.log_tables import ctd_hours
 from stommel.archive.schema import ctd
+from stommel.archive.times import seconds
 
 PIECE = 100_000
 """Samples that are read at once."""
@@ -32,7 +33,7 @@ class CtdPiece(NamedTuple):
     @property
     def time(self) -> Array:
         """Times [s since 1970]."""
-        return self.t_us.astype(np.float64) * 1e-6
+        return seconds(self.t_us)
 
     def since(self, first: int) -> "CtdPiece":
         """Those from one sample on."""

@@ -7,7 +7,7 @@ from sqlalchemy import Connection, Row, Select, func, select
 
 from stommel.archive.errors import ArchiveRequestError
 from stommel.archive.rows import CtdRow, DiveRow, FrameRow, TextRow
-from stommel.archive.schema import channels, ctd, dives, frames, samples, texts
+from stommel.archive.schema import ctd, dives, frames, texts
 from stommel.archive.times import GREATEST_TIME, microseconds, seconds
 
 MOST_ROWS = 10_000
@@ -58,24 +58,25 @@ def stored_frames(
     return [_frame(row) for row in connection.execute(query)]
 
 
+def kept_messages(connection: Connection, vehicle: int) -> list[int]:
+    """Numbers of the messages of which a vehicle has frames, from one to the next: not all frames are read."""
+    of, found = frames.c, list[int]()
+    while True:
+        query = select(func.min(of.message_id)).where(of.vehicle_id == vehicle)
+        if found:
+            query = query.where(of.message_id > found[-1])
+        number = connection.execute(query).scalar()
+        if number is None:
+            return found
+        found.append(number)
+
+
 def frames_between(connection: Connection, vehicle: int, begin: float, end: float) -> Iterator[StoredFrame]:
     """The frames from `begin` to `end` [s since 1970] in order of time, read little by little."""
     of = frames.c
     query = select(frames).where(of.vehicle_id == vehicle, of.t_us.between(microseconds(begin), microseconds(end)))
     for row in _many(connection, query.order_by(of.t_us, of.id)):
         yield _frame(row)
-
-
-def samples_between(
-    connection: Connection, vehicle: int, begin: float, end: float
-) -> Iterator[tuple[str, float, float]]:
-    """Key, time and value of every sample from `begin` to `end`, channel by channel in order of their keys."""
-    of = samples.c
-    for number, key in connection.execute(select(channels.c.id, channels.c.key).order_by(channels.c.key)).all():
-        query = select(of.t_us, of.value).where(of.vehicle_id == vehicle, of.channel_id == number)
-        query = query.where(of.t_us.between(microseconds(begin), microseconds(end))).order_by(of.t_us)
-        for t_us, value in _many(connection, query):
-            yield key, seconds(t_us), value
 
 
 def stored_texts(

@@ -19,10 +19,11 @@ from sqlalchemy import (
 )
 
 from stommel.archive.columns import NUMBER, metadata, number_column, value_columns, vehicle_column
+from stommel.archive.doing_table import doings
 from stommel.archive.log_tables import ctd_hours, logs, profiles
 from stommel.archive.wording import Name, Words
 
-LOG_TABLES = (ctd_hours, logs, profiles)
+OTHER_TABLES = (ctd_hours, doings, logs, profiles)
 """Tables that have a file of their own."""
 
 vehicles = Table(

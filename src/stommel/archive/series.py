@@ -20,7 +20,7 @@ from stommel.archive.reduction import (
     unwound,
     with_gaps,
 )
-from stommel.archive.times import microseconds
+from stommel.archive.times import microseconds, seconds
 
 Method = Literal["minmax", "lttb", "raw"]
 
@@ -149,7 +149,7 @@ def _unreduced(curve: Curve, window: Window) -> Series:
 
 def _series(curve: Curve, kept: Places, gaps: Places) -> Series:
     t_us, value = with_gaps(curve, kept, gaps)
-    return Series(t_us / 1e6, value, curve.samples, len(kept) < curve.samples)
+    return Series(seconds(t_us), value, curve.samples, len(kept) < curve.samples)
 
 
 def _shortest_gap(curve: Curve, window: Window) -> float:

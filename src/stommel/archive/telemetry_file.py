@@ -1,36 +1,38 @@
-"""All samples of a vehicle as CSV: one line a sample, channel by channel."""
+"""Samples of a vehicle as CSV: one line a sample, channel by channel."""
 
 import csv
+import io
 from collections.abc import Iterable
-from datetime import UTC, datetime, timedelta
+from itertools import repeat
 from pathlib import Path
-from typing import TextIO
 
-from stommel.archive.archive import Archive
-from stommel.archive.readers import samples_between
+from stommel.archive.sample_pieces import SamplePiece
 from stommel.files.whole import whole_file
 
-_EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
+HEAD = "time [UTC],channel,value\n"
 
 
-def write_telemetry(archive: Archive, vehicle: int, begin: float, end: float, file: Path) -> int:
-    """Write the samples from `begin` to `end` [s since 1970], whole or not at all; how many.
+def lines_of(piece: SamplePiece) -> str:
+    """A line for each sample, as they stand below `HEAD`; its unit is the end of the channel's name."""
+    text = io.StringIO()
+    stamps = ((piece.t_us + 500) // 1000).astype("datetime64[ms]").astype(str)
+    rows = zip((f"{stamp}Z" for stamp in stamps), repeat(piece.key), map(repr, piece.value.tolist()), strict=False)
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
+
+
+def write_telemetry(pieces: Iterable[SamplePiece], file: Path) -> int:
+    """Write samples that come in pieces, of which one is held at a time, whole or not at all; how many.
 
     Raises
     ------
     OutputError
         The file cannot be written.
     """
-    with whole_file(file) as made, archive.reading() as connection, made.open("w", encoding="utf-8", newline="") as out:
-        return _written(out, samples_between(connection, vehicle, begin, end))
-
-
-def _written(out: TextIO, rows: Iterable[tuple[str, float, float]]) -> int:
-    writer = csv.writer(out)
-    writer.writerow(("time [UTC]", "channel", "value"))
     count = 0
-    for key, t, value in rows:
-        stamp = (_EPOCH + timedelta(microseconds=round(t * 1e6))).isoformat(timespec="milliseconds")
-        writer.writerow((stamp.replace("+00:00", "Z"), key, repr(value)))
-        count += 1
+    with whole_file(file) as made, made.open("w", encoding="utf-8", newline="") as out:
+        out.write(HEAD)
+        for piece in pieces:
+            out.write(lines_of(piece))
+            count += piece.t_us.size
     return count

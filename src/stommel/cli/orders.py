@@ -99,6 +99,7 @@ def _show(row: dict[str, Any], header: "OrdersHeader") -> None:
         "pitch": f"{row['pitch_deg']:.4g} deg, down and up",
         "ballast": f"{ballast} ml down/up/at the surface",
         "waypoints": str(row["waypoints"]),
+        "CTD": "as configured" if header.sample_every_s is None else f"each {header.sample_every_s:g} s",
         "ends by": ", ".join(filter(None, alarms)) or "no alarm",
         "dive ends": f"deeper than {row['abort_depth_m']:g} m, or longer than {row['abort_hours']:g} h",
         "expires": f"{counted(number(header.expires_hours, 2), 'hour')} after its start",

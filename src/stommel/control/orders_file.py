@@ -88,6 +88,8 @@ class OrdersHeader:
     """Version that made them."""
     expires_hours: float | None = None
     """The mission expires so long after its start; None: never."""
+    sample_every_s: float | None = None
+    """Between two samples of the CTD; None: as the vehicle's configuration says."""
 
 
 def orders_text(orders: Orders, header: OrdersHeader, origin: str = "orders") -> str:
@@ -210,7 +212,7 @@ def parse_orders(text: str, origin: str, vehicle_sha256: str | None = None) -> t
         raise FileError([Problem(origin, "vehicle_sha256", words)])
     header = OrdersHeader(
         file.mission, file.created_from, file.vehicle, file.vehicle_sha256, file.physics, file.density_kg_m3,
-        file.stommel, file.expires_hours,
+        file.stommel, file.expires_hours, file.sample_every_s,
     )  # fmt: skip
     return _orders_of(file), header
 

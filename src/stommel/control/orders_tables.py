@@ -19,6 +19,8 @@ Ballast = Annotated[float, between(-0.1, 0.1)]
 MassPosition = Annotated[float, between(-5, 5)]
 Angle = Annotated[float, between(0, 1.571)]
 Period = Annotated[float, between(1, 86400)]
+SampleInterval = Annotated[float, between(0.1, 3600)]
+"""What the vehicle can tell its CTD."""
 Latitude = Annotated[float, between(-1.571, 1.571)]
 Longitude = Annotated[float, between(-3.142, 6.284)]
 Cells = Annotated[tuple[tuple[Annotated[float, between(-1e3, 1e3)], ...], ...], Field(min_length=2, max_length=_MOST)]
@@ -170,6 +172,8 @@ class OrdersFile(Table):
     """Decisions from one look at waypoint and alarms to the next."""
     sampled_phases: tuple[Literal["surface", "descent", "inflection", "ascent", "recovery", "drift"], ...]
     """Phases in which the payload measures."""
+    sample_every_s: SampleInterval | None = None
+    """Between two samples of the CTD; as the vehicle's configuration says if left out."""
     waypoints_rad: Annotated[tuple[tuple[Latitude, Longitude], ...], Field(max_length=_MOST_WAYPOINTS)]
     """Latitude and longitude of each."""
     acceptance_radius_m: Annotated[float, between(5, 100000)]

@@ -14,6 +14,8 @@ from stommel.files.ranges import Depth, Position, SignedVolume, between
 
 BEYOND_RATING = 1.1
 """How far beyond the rating of the hull a dive may be broken off: plans have it so for a dive to the rating itself."""
+SAMPLES = (0.1, 3600.0)
+"""Between two samples of the CTD, as the message to its node can say it [s]."""
 _SLACK = 1e-9
 """Share by which a limit may be passed: numbers are sums of others."""
 
@@ -64,7 +66,7 @@ def refusals(orders: Orders, header: OrdersHeader, limits: VehicleLimits, origin
             f"{limits.vehicle_sha256[:12]}..."
         )
         found.append(Problem(origin, "vehicle_sha256", text))
-    for limit in _limits(orders, limits):
+    for limit in (*_limits(orders, limits), *_sampling(header)):
         slack = _SLACK * max(abs(limit.low), abs(limit.high))
         if not limit.low - slack <= limit.value <= limit.high + slack:
             text = (
@@ -73,6 +75,12 @@ def refusals(orders: Orders, header: OrdersHeader, limits: VehicleLimits, origin
             )
             found.append(Problem(origin, limit.key, text))
     return found
+
+
+def _sampling(header: OrdersHeader) -> Iterator[_Limit]:
+    if header.sample_every_s is not None:
+        low, high = SAMPLES
+        yield _Limit("sample_every_s", header.sample_every_s, low, high, "s", "what the CTD can be told")
 
 
 def _limits(orders: Orders, limits: VehicleLimits) -> Iterator[_Limit]:

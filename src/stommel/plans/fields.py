@@ -8,13 +8,15 @@ from annotated_types import Ge, Le
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from stommel.control.vehicle_limits import BEYOND_RATING, VehicleLimits
+from stommel.control.vehicle_limits import BEYOND_RATING, SAMPLES, VehicleLimits
 from stommel.files.docstrings import attribute_docstrings
 from stommel.files.ranges import ZeroOr
 from stommel.files.table_keys import models_in
 from stommel.files.units import unit_of
 from stommel.plans.plan import StationPlan
 
+OWN = "sampling.every_s"
+"""Key that the vehicle's configuration has a value for where a plan has none."""
 LISTS = ("waypoints", "geofence")
 """Keys of places, which are drawn on a map."""
 
@@ -36,7 +38,7 @@ class PlanField:
     """Whether it is a list of them."""
     required: bool
     default: Any
-    """What it is if left out; null: it follows from others."""
+    """What it is if left out; null: it follows from others, or is the vehicle's own affair."""
 
 
 def plan_fields(limits: VehicleLimits | None = None) -> list[PlanField]:
@@ -55,6 +57,7 @@ def _highest(limits: VehicleLimits) -> dict[str, float]:
     found = {
         "dives.depth_m": limits.depth_rating_m,
         "dives.turn_depth_m": limits.depth_rating_m,
+        OWN: SAMPLES[1],
         "dives.ballast_ml": 0.5 * (ballast[1] - ballast[0]),
         "surface.ballast_ml": ballast[1],
         "abort.depth_m": BEYOND_RATING * limits.depth_rating_m,
@@ -81,7 +84,9 @@ def _field(key: str, words: str, field: FieldInfo) -> PlanField:
     low = next((one.ge for one in said if isinstance(one, Ge)), None) if zero is None else zero.low
     high = next((one.le for one in said if isinstance(one, Le)), None) if zero is None else zero.high
     choices = tuple(_choices(field.annotation))
-    default = None if field.is_required() else field.get_default(call_default_factory=True, validated_data={})
+    default = (
+        None if field.is_required() or key == OWN else field.get_default(call_default_factory=True, validated_data={})
+    )
     return PlanField(
         key, words, unit_of(key) or "", _number(low), _number(high), zero is not None, choices,
         isinstance(default, tuple), field.is_required(), list(default) if isinstance(default, tuple) else default,

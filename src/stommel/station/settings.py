@@ -1,7 +1,7 @@
 """What a station is told: `station.toml`, and the command line over it."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -41,6 +41,8 @@ class VehicleSettings(_Table):
     """Speak to a vehicle that was told to believe everybody."""
     speed: Annotated[float, between(LEAST_SPEED, MOST_SPEED)] = 1.0
     """Of a simulated vehicle, times real time."""
+    fetch: Literal["nothing", "essential", "detail", "raw"] = "nothing"
+    """Least important series of its log that comes ashore by itself at each surfacing; those that matter more too."""
     simulated: Flag = False
     """Whether it lives in a world with a clock of its own; at another speed than 1 it always does."""
 
@@ -85,7 +87,7 @@ class StationSettings(_Table):
     address: Annotated[str, Field(max_length=500, pattern=PRINTABLE)] = ""
     """Of the page as people reach it; stands in alerts."""
     demo: Flag = False
-    """Whether the page shows the guided first five minutes."""
+    """Whether the page shows the guided first five minutes by itself."""
     alarms: AlarmSettings = AlarmSettings()
     alerts: AlertSettings = AlertSettings()
     vehicles: Annotated[tuple[VehicleSettings, ...], Field(max_length=MOST_VEHICLES)] = ()

@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import asdict
+from functools import partial
 from threading import Thread
 from typing import Any
 
@@ -13,8 +14,9 @@ from stommel.link.transports.address import read_address
 from stommel.plans.preview.previews import Previews
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
+from stommel.station.logbook.doings import Doings
 from stommel.station.people.afterwards import Afterwards
-from stommel.station.people.holders import Hold
+from stommel.station.people.holders import Hold, taking
 from stommel.station.people.people import People
 from stommel.station.replay.replays import Replays
 from stommel.station.settings import StationSettings, VehicleSettings
@@ -27,6 +29,7 @@ from stommel.station.vehicles.logs import VehicleLogs
 from stommel.station.vehicles.missions import Missions
 from stommel.station.vehicles.opening import VehicleError
 from stommel.station.vehicles.parameters import Parameters
+from stommel.station.vehicles.waiting import NOTHING, WaitingThings
 from stommel.station.watching import alarms_of, open_alarms, watch
 
 Watcher = Callable[[int, Batch, float], None]
@@ -59,6 +62,7 @@ class Station:
         self.completers: list[Completer] = []
         """Add to summaries."""
         self._holders: dict[int, Hold | None] = {}
+        self._waiting: dict[int, WaitingThings] = {}
         self._held = ExitStack()
         self._is_started = False
         try:
@@ -73,7 +77,8 @@ class Station:
             self.people = People(self.archive, told=self._holder_changed, later=afterwards)
             self.replays = Replays(self.archive, self.hub, self.vehicles)
             self._held.callback(self.replays.stop)
-            self.alarms = alarms_of(settings, self.archive, self.hub, self._title)
+            self.doings = Doings(self.archive, self.now)
+            self.alarms = alarms_of(settings, self.archive, self.hub, self.doings, self._title)
             self.commands = Commands(self.archive, self.hub, self.vehicles)
             self.parameters = Parameters(self.archive, self.hub, self.vehicles)
             self.missions = Missions(self.archive, self.hub, self.vehicles)
@@ -131,12 +136,14 @@ class Station:
         self.archive.know(number, settings.title, settings.model)
         news = VehicleNews(settings, self.archive, self.hub, self._complete)
         line = VehicleLine(settings, self.settings.folder, self.archive, self._committed)
-        self.hub.open(number, line.clock.now, self.archive.latest(number))
-        line.tellers.append(news)
+        self.hub.open(number, line.clock.now, self.archive.latest(number), line.ingest.periods.of_key)
         self.commands.follow(line)
         self.parameters.follow(line)
         self.missions.follow(line)
         self.files.follow(line)
+        services = (self.parameters, self.missions, self.files)
+        waiting = self._waiting[number] = WaitingThings(*(partial(each.open, number) for each in services))
+        line.tellers += [waiting, news]
         self.vehicles[number], self.news[number] = line, news
         self._holders[number] = self.people.holders.of(number)
         watch(self.alarms, line, lambda: self.summary(number))
@@ -152,12 +159,18 @@ class Station:
     def _complete(self, vehicle: int, summary: dict[str, Any]) -> None:
         hold = self._holders.get(vehicle)
         summary["holder"] = None if hold is None else hold.user
+        waiting = self._waiting.get(vehicle)
+        summary["waiting"] = NOTHING if waiting is None else waiting.told
         summary["alarms"] = open_alarms(self.alarms, vehicle)
         for completer in self.completers:
             completer(vehicle, summary)
 
     def _holder_changed(self, vehicle: int, hold: Hold | None) -> None:
-        self._holders[vehicle] = hold
+        before, self._holders[vehicle] = self._holders.get(vehicle), hold
+        if hold is not None:
+            self.doings.add(vehicle, "hold", hold.user, taking(hold))
+        elif before is not None:
+            self.doings.add(vehicle, "hold", before.user, "Gave up command")
         told = {"vehicle": vehicle, "user": None} if hold is None else asdict(hold)
         self.hub.publish(Happening("holder", vehicle, told))
 

@@ -15,17 +15,26 @@ from stommel.station.alarms.station_alarms import ARCHIVE_FAILING, StationAlarms
 from stommel.station.channels import channel_named
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
+from stommel.station.logbook.doings import Doings
 from stommel.station.settings import StationSettings
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.summary import AT_SURFACE
 from stommel.vehicle import Vehicle, load_vehicle
 
 
-def alarms_of(settings: StationSettings, archive: Archive, hub: Hub, title: Callable[[int], str]) -> StationAlarms:
-    """Make the alarms of a station."""
+def alarms_of(
+    settings: StationSettings, archive: Archive, hub: Hub, doings: Doings, title: Callable[[int], str]
+) -> StationAlarms:
+    """Make the alarms of a station; a limit that somebody sets stands in the log book when it is told."""
+
+    def publish(kind: str, vehicle: int | None, row: Mapping[str, Any]) -> None:
+        if kind == "limit" and vehicle is not None:
+            doings.add(vehicle, "limit", row["user"], limit_words(row["channel"], row["limit"]))
+        hub.publish(Happening(kind, vehicle, row))
+
     address = settings.address or f"http://{settings.host}:{settings.port}"
     return StationAlarms(
-        archive, _words, lambda kind, vehicle, row: hub.publish(Happening(kind, vehicle, row)),
+        archive, _words, publish,
         Sender(settings.name, title, address), settings.alarms, settings.alerts,
         settings.folder / "alerts",
     )  # fmt: skip
@@ -58,10 +67,24 @@ def contact_of(summary: Mapping[str, Any]) -> Contact:
     )
 
 
-def open_alarms(alarms: StationAlarms, vehicle: int) -> list[dict[str, str]]:
+def open_alarms(alarms: StationAlarms, vehicle: int) -> list[dict[str, Any]]:
     """Open alarms of a vehicle, and of the station itself, as the summary tells them, the worst first."""
     found = sorted([*alarms.open_of(vehicle), *alarms.open_of(None)], key=lambda alarm: -RANK[alarm.severity])
-    return [{"key": alarm.key, "words": alarm.words, "severity": alarm.severity} for alarm in found]
+    return [alarm.as_brief() for alarm in found]
+
+
+def limit_words(key: str, limit: Mapping[str, Any] | None) -> str:
+    """A limit that somebody has set or removed, in words."""
+    words, unit = _words(key)
+    if limit is None:
+        return f"Limit of {words} removed"
+    told = [
+        f"at least {limit['low']:.10g} {unit}".rstrip() if limit["low"] is not None else "",
+        f"at most {limit['high']:.10g} {unit}".rstrip() if limit["high"] is not None else "",
+        f"hysteresis {limit['hysteresis']:.10g} {unit}".rstrip() if limit["hysteresis"] else "",
+        f"after {limit['delay_s']:.10g} s" if limit["delay_s"] else "",
+    ]
+    return f"Limit of {words}: {', '.join(part for part in told if part)}; {limit['severity']}"
 
 
 @cache

@@ -30,7 +30,7 @@ EVERYTHING: dict[str, Any] = {
     "drift_control": {
         "gain_ml_s_m": 55, "return_minutes": 9, "fastest_m_s": 0.04, "dead_band_m": 2, "period_s": 50,
     },
-    "sampling": {"phases": ["descent", "ascent"]},
+    "sampling": {"phases": ["descent", "ascent"], "every_s": 4.5},
     "duration_days": 2.5,
 }  # fmt: skip
 """A value of its own for everything that orders hold."""

@@ -96,10 +96,20 @@ def test_a_way_that_is_too_long_for_battery_and_time_is_told_of() -> None:
     assert not any("takes about" in words for words in near)
 
 
-def test_an_interval_of_the_ctd_is_told_not_to_be_in_orders() -> None:
-    assert any("sampling.every_s = 5" in words for words in made(sampling={"every_s": 5}).warnings)
+def test_orders_hold_how_often_the_ctd_measures_where_the_plan_says_it() -> None:
+    """Oracle: the plan; left out, orders leave it to the vehicle's own configuration."""
+    assert tomllib.loads(made(sampling={"every_s": 5}).orders or "")["sample_every_s"] == 5.0
     orders = tomllib.loads(made(sampling={"phases": ["ascent"]}).orders or "")
     assert orders["sampled_phases"] == ["ascent"]
+    assert "sample_every_s" not in orders
+
+
+@pytest.mark.parametrize("every", [0.05, 3601.0])
+def test_an_interval_that_the_ctd_cannot_be_told_is_refused_by_its_key(every: float) -> None:
+    """Oracle: the database of messages: `sample_interval` of Switch is from 0.1 to 3600 s."""
+    found = made(sampling={"every_s": every})
+    assert keys(found) == {"sampling.every_s"}
+    assert "0.1 and 3600 s" in found.problems[0].reason + found.problems[0].allowed
 
 
 def test_a_vehicle_that_was_trimmed_already_is_not_trimmed_anew() -> None:

@@ -1,6 +1,7 @@
 """Plans over HTTP, with the simulator behind them. Oracle: the planner's own functions, and the simulator's."""
 
 import time
+import tomllib
 from typing import Any
 
 import httpx
@@ -124,6 +125,15 @@ def test_orders_open_as_a_plan(client: httpx.Client) -> None:
     wrong = client.post("/api/plans/open", params={"vehicle": 1}, json={"orders": "no orders"})
     assert wrong.status_code == 422
     assert "not valid TOML" in wrong.json()["detail"]["reason"]
+
+
+def test_how_often_the_ctd_measures_is_ordered_where_somebody_said_it(client: httpx.Client) -> None:
+    """Oracle: the plan. A template leaves it to the vehicle, and so do its orders."""
+    plan = client.get("/api/plan-templates", params={"vehicle": 1}).json()["templates"][0]["plan"]
+    for sampling, ordered in ({}, None), ({"every_s": 10.0}, 10.0):
+        body = {"vehicle": 1, "plan": plan | {"sampling": sampling}} if sampling else {"vehicle": 1, "plan": plan}
+        text = client.post("/api/plans/validate", json=body).raise_for_status().json()["orders"]
+        assert tomllib.loads(text).get("sample_every_s") == ordered
 
 
 def test_what_the_vehicle_holds_is_shown_as_a_plan(client: httpx.Client, station: Station) -> None:

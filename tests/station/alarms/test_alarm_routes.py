@@ -1,5 +1,6 @@
 """Routes of alarms, limits and alerts, with a vehicle that speaks over TCP. Oracle: what it says."""
 
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -32,8 +33,11 @@ def client(station: Station) -> Client:
 
 
 def test_limits_come_from_the_vehicle_file_until_a_pilot_sets_others(client: Client) -> None:
-    """Oracle: Table 3 of the paper says 200 m."""
+    """Oracle: Table 3 of the paper says 200 m. Each says who set it, and when."""
+    before = time.time()
     limits = {limit["channel"]: limit for limit in client.get("/vehicles/1/limits")}
+    assert limits["depth_m"].pop("changed_by") == "vehicle file"
+    assert limits["depth_m"].pop("changed") <= before
     assert limits["depth_m"] == {
         "channel": "depth_m", "low": None, "high": 200.0, "hysteresis": 2.0, "delay_s": 0.0, "severity": "critical",
     }  # fmt: skip
@@ -41,6 +45,8 @@ def test_limits_come_from_the_vehicle_file_until_a_pilot_sets_others(client: Cli
     assert client.request("PUT", "/vehicles/1/limits/depth_m", json=body).status_code == 200
     assert client.request("DELETE", "/vehicles/1/limits/pitch_deg").status_code == 204
     limits = {limit["channel"]: limit for limit in client.get("/vehicles/1/limits")}
+    assert limits["depth_m"].pop("changed_by") == "local"
+    assert limits["depth_m"].pop("changed") >= before - 1e-3
     assert limits["depth_m"] == {"channel": "depth_m", **body}
     assert "pitch_deg" not in limits
     assert client.refused("DELETE", "/vehicles/1/limits/pitch_deg", 404)["reason"] == "this channel has no limit"
@@ -91,6 +97,10 @@ def test_a_vehicle_too_deep_raises_an_alarm_that_somebody_acknowledges(
     assert again["reason"] == f"alarm {number}: local has acknowledged it already"
     assert client.refused("POST", "/alarms/999/acknowledge", 404, json={})["key"] == "alarm"
     assert [row["key"] for row in client.get("/alarms", acknowledged=False)] == ["vehicle:too deep"]
+    briefs = {brief["key"]: brief for brief in client.get("/vehicles")[0]["alarms"]}
+    for key, row in (("limit:depth_m:high", seen), ("vehicle:too deep", rows["vehicle:too deep"])):
+        assert briefs[key] == {name: row[name] for name in briefs[key]}, "a summary tells what the row says"
+    assert briefs["limit:depth_m:high"]["acknowledged_by"] == "local"
 
     vehicle.say("GLIDER_STATE", time_boot_ms=2, depth=20.0, alarms=0)
     until(lambda: client.get("/alarms", open=True) == [])

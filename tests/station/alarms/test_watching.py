@@ -23,7 +23,8 @@ SUMMARY: dict[str, Any] = {"last_contact": 5.0, "next_surfacing": None, "phase":
         ({"last_contact": None, "phase": None}, Contact(None)),
         ({"next_surfacing": {"t": 9.0, "why": "x"}}, Contact(5.0, 9.0)),
         ({"phase": "descent", "link_reason": "silent"}, Contact(5.0, None, True, "silent")),
-        ({"phase": "drift"}, Contact(5.0)),
+        ({"phase": "drift"}, Contact(5.0, is_diving=True)),  # it hangs in the water at depth: docs/guide/missions.md
+        ({"phase": "recovery"}, Contact(5.0)),  # it stays at the surface and calls
     ],
 )
 def test_contact_is_what_the_summary_says(told: dict[str, Any], contact: Contact) -> None:

@@ -42,7 +42,25 @@ def test_a_new_reader_has_the_latest_archived_value_at_once() -> None:
     """akhenry/openmct-yamcs#133: after a reconnect a rarely sent value is there at once, with its own time."""
     reader = hub_of().subscribe("a", 1, ["depth_m", "pitch_deg"])
     (first,) = asyncio.run(collected(reader, 1))
-    assert first == {"type": "values", "id": "a", "vehicle": 1, "now": 100.0, "values": {"depth_m": [50.0, 7.0]}}
+    assert first == {
+        "type": "values", "id": "a", "vehicle": 1, "now": 100.0, "values": {"depth_m": [50.0, 7.0]},
+        "periods": {"depth_m": 2.0},
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("every", [False, True])
+def test_how_often_values_come_is_told_when_it_changes(every: bool) -> None:
+    hub, period = Hub(), [8.0]
+    hub.open(1, lambda: 100.0, {}, lambda _: period[0])
+    reader = hub.subscribe("a", 1, ["depth_m"], every)
+    found: list[dict[str, float]] = []
+    for k, told in enumerate((8.0, 8.0, 9.0, 12.0, 2.0)):
+        period[0] = told
+        hub.publish(samples("depth_m", (60.0 + k, 0.0)))
+        message = reader.collect()
+        assert message is not None
+        found.append(message["periods"])
+    assert found == [{"depth_m": 8.0}, {}, {}, {"depth_m": 12.0}, {"depth_m": 2.0}], "a tenth more is no news"
 
 
 def test_a_slow_reader_of_values_skips_and_has_the_latest() -> None:

@@ -1,4 +1,4 @@
-"""The log book: notes with author and time, found by words, beside commands, missions and alarms."""
+"""The log book: notes with author and time, found by words, beside what people did, alarms and transfers."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -7,9 +7,11 @@ from typing import Any
 import pytest
 from sqlalchemy import insert
 
-from stommel.archive.schema import alarms, commands, missions
+from stommel.archive.schema import alarms, commands, files, missions, parameter_writes
 from stommel.station.logbook.feed import page_of
 from stommel.station.logbook.notes import Notes
+from stommel.station.people.holders import Hold, taking
+from stommel.station.people.roles import Role
 from stommel.station.station import Station
 from tests.station.client import Client
 from tests.station.stations import station as running
@@ -29,7 +31,7 @@ def client(station: Station) -> Client:
 
 
 def filled(station: Station) -> None:
-    """One of each kind at the same second, and an alarm of another vehicle."""
+    """One of each kind of a vehicle's own tables at the same second, and an alarm of another vehicle."""
     us = round(T0 * 1e6)
     alarm = {
         "key": "k", "words": "Depth greater than 200 m", "severity": "critical", "raised_us": us, "cleared_us": us,
@@ -42,7 +44,16 @@ def filled(station: Station) -> None:
     mission = {
         "vehicle_id": 1, "t_us": us, "user": "ana", "name": "Zhoushan", "sha256": "", "orders": "", "state": "aboard",
     }  # fmt: skip
+    parameter = {
+        "vehicle_id": 1, "component": 1, "name": "DEPTH_MAX", "value": 150.0, "user": "ben", "t_us": us,
+        "state": "refused", "words": "out of range",
+    }  # fmt: skip
+    file = {
+        "vehicle_id": 1, "path": "logs/3.bin", "t_us": us, "direction": "download", "user": "ben", "state": "going",
+    }  # fmt: skip
     with station.archive.writing() as connection:
+        connection.execute(insert(parameter_writes), parameter)
+        connection.execute(insert(files), file)
         connection.execute(insert(alarms), [{"vehicle_id": vehicle, **alarm} for vehicle in (1, 2)])
         connection.execute(insert(commands), {key: value for key, value in command.items() if key in commands.c})
         connection.execute(insert(missions), mission)
@@ -101,6 +112,8 @@ def test_everything_about_a_vehicle_is_in_one_list(station: Station, client: Cli
         ("command", "ben", "Command surface: why 3", "done: executed"),
         ("mission", "ana", "Mission Zhoushan", "aboard"),
         ("note", "ana", "Launched from the pier", None),
+        ("parameter", "ben", "Parameter DEPTH_MAX of component 1 set to 150", "refused: out of range"),
+        ("transfer", "ben", "File logs/3.bin from the vehicle", "under way"),
     ]
     assert {entry["t"] for entry in page["entries"]} == {T0}
     assert page["next"] is None
@@ -117,7 +130,7 @@ def test_pages_of_the_list_leave_nothing_out_and_repeat_nothing(station: Station
     for n in range(9):
         Notes(station.archive).add(1, T0 + n // 3, "ana", f"note {n}")
     whole = page_of(station.archive, 1, limit=500).entries
-    assert len(whole) == 13
+    assert len(whole) == 15
     assert [entry.t for entry in whole] == sorted((entry.t for entry in whole), reverse=True)
     found, before = [], None
     for _ in range(20):
@@ -127,6 +140,44 @@ def test_pages_of_the_list_leave_nothing_out_and_repeat_nothing(station: Station
         if before is None:
             break
     assert found == whole
+
+
+def test_who_held_command_and_set_limits_is_told_at_the_time_of_the_vehicle(tmp_path: Path) -> None:
+    """The whole way: by the routes, at a vehicle whose clock is not the station's."""
+    with running(tmp_path, "tcp:127.0.0.1:9", start=False) as station:
+        client, clock = Client(station), station.vehicles[1].clock
+        now = clock.now
+        clock.now = lambda: now() + 86_400.0  # type: ignore[method-assign]
+        client.request("POST", "/vehicles/1/holder", json={}).raise_for_status()
+        limit = {"low": None, "high": 150, "hysteresis": 2, "delay_s": 30, "severity": "critical"}
+        client.request("PUT", "/vehicles/1/limits/depth_m", json=limit).raise_for_status()
+        client.request("DELETE", "/vehicles/1/limits/depth_m").raise_for_status()
+        client.request("DELETE", "/vehicles/1/holder").raise_for_status()
+        page = client.get("/vehicles/1/log", kinds=["hold", "limit"])
+        assert sorted((entry["kind"], entry["user"], entry["words"]) for entry in page["entries"]) == [
+            ("hold", "local", "Gave up command"),
+            ("hold", "local", "Took command"),
+            ("limit", "local", "Limit of depth removed"),
+            ("limit", "local", "Limit of depth: at most 150 m, hysteresis 2 m, after 30 s; critical"),
+        ]
+        assert all(abs(entry["t"] - now() - 86_400.0) < 60.0 for entry in page["entries"])
+        assert client.get("/vehicles/1/log", search="gave")["entries"][0]["kind"] == "hold"
+
+
+def test_command_that_was_taken_from_somebody_says_from_whom_and_why() -> None:
+    hold = Hold(1, "ben", Role.PILOT, T0, "ana", "she sleeps")
+    assert taking(hold) == "Took command from ana: she sleeps"
+
+
+def test_what_is_of_the_station_stands_in_the_log_of_each_vehicle(station: Station, client: Client) -> None:
+    """An archive that fails is everybody's trouble, and a note about all was written to be read."""
+    client.post("/notes", {"words": "Storm"})
+    client.post("/notes", {"vehicle": 2, "words": "Only of the other"})
+    with station.archive.writing() as connection:
+        alarm = {"key": "archive_failing", "words": "Disk full", "severity": "critical", "raised_us": round(T0 * 1e6)}
+        connection.execute(insert(alarms), alarm)
+    told = [(entry["kind"], entry["vehicle"], entry["words"]) for entry in client.get("/vehicles/1/log")["entries"]]
+    assert told == [("note", None, "Storm"), ("alarm", None, "Disk full")]
 
 
 @pytest.mark.parametrize("before", ["1", "1-note", "1-note-x", "1-frog-1", f"1-note-{'f' * 17}", "1-note-1 or 1"])

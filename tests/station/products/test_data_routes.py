@@ -15,6 +15,8 @@ from tests.station.client import Client
 from tests.station.stations import station
 
 BEGIN = 1_782_864_000.0
+SECOND = 1_782_867_000.000003
+"""Begin of the second dive: 50 min after the first, and a little."""
 SILENT = "tcp:127.0.0.1:9"
 """Nobody listens at the port `discard`."""
 
@@ -37,7 +39,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Client]:
         track += [("longitude_deg", t, (179.998 + (t - BEGIN) * 1e-6 + 180.0) % 360.0 - 180.0) for t in times]
         dives = [
             DiveRow(1, BEGIN, BEGIN + 1200.0, 28.0, 126.0, 28.01, 126.0, 59.7, 0.1, -0.2, 900.0),
-            DiveRow(2, BEGIN + 3000.0),
+            DiveRow(2, SECOND),
         ]
         made.archive.store(1, Batch(samples=track, dives=dives, ctd=first + second))
         yield Client(made)
@@ -49,6 +51,13 @@ def test_dives_as_they_were_told(client: Client) -> None:
     assert (first["greatest_depth_m"], first["current_east_m_s"], first["energy_j"]) == (59.7, -0.2, 900.0)
     assert second["t_end"] is None
     assert client.get("/vehicles/1/dives", begin=BEGIN + 1.0)[0]["dive"] == 2
+
+
+def test_a_time_that_was_told_finds_what_it_was_told_of(client: Client) -> None:
+    """This begin times 1e-6 is a number that is before it: an end that the dive is not before."""
+    dive = client.get("/vehicles/1/dives")[1]
+    assert dive["t_begin"] == SECOND
+    assert client.get("/vehicles/1/dives", begin=SECOND, end=SECOND) == [dive]
 
 
 def test_each_dive_has_a_profile_down_and_one_up(client: Client) -> None:

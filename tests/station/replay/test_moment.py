@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from stommel.archive import Batch, DiveRow
+from stommel.station.alarms.alarm import Alarm
 from stommel.station.station import Station
 from tests.station.client import Client
 
@@ -76,3 +77,30 @@ def test_a_vehicle_that_is_silent_then_is_not_heard_then(client: Client) -> None
     assert found["heard"] is False
     assert found["last_contact"] == T0 + 8990.0
     assert found["link_reason"] == "nothing was received at that time"
+
+
+@pytest.mark.usefixtures("past")
+def test_alarms_are_those_of_then_and_say_nothing_of_what_came_later(station: Station, client: Client) -> None:
+    """Raised after 10 min, acknowledged after 20, over after 30; one of the station is of another clock."""
+    history = station.alarms.history
+    number = history.add(Alarm(None, 1, "limit:depth_m:high", "Depth greater than 200 m", "warning", T0 + 600.0))
+    history.add(Alarm(None, None, "alerts_failing", "Alerts do not go out", "warning", T0))
+    history.acknowledge(number, "ana", "seen it", T0 + 1200.0)
+    history.clear(number, T0 + 1800.0)
+    told = [at(client, T0 + minutes * 60.0)["alarms"] for minutes in (5.0, 15.0, 25.0, 35.0)]
+    assert [[alarm["key"] for alarm in alarms] for alarms in told] == [
+        [], ["limit:depth_m:high"], ["limit:depth_m:high"], [],
+    ]  # fmt: skip
+    assert (told[1][0]["raised"], told[1][0]["acknowledged_by"]) == (T0 + 600.0, None)
+    assert (told[2][0]["acknowledged"], told[2][0]["acknowledged_by"]) == (T0 + 1200.0, "ana")
+
+
+def test_alarms_that_only_a_log_brought_home_are_shown(station: Station, client: Client) -> None:
+    """Bits of GLIDER_ALARM: 1 leak, 64 sinking on; the station kept no alarm, since nobody was told at that time."""
+    bits = [("vehicle_alarms", T0 + 10.0, 65.0), ("vehicle_alarms", T0 + 600.0, 0.0), ("depth_m", T0 + 9000.0, 1.0)]
+    station.archive.store(1, Batch(samples=bits))
+    found = at(client, T0 + 60.0)["alarms"]
+    assert [(alarm["words"], alarm["severity"], alarm["raised"]) for alarm in found] == [
+        ("Leak", "critical", None), ("Sinking on", "critical", None),
+    ]  # fmt: skip
+    assert at(client, T0 + 900.0)["alarms"] == []

@@ -177,12 +177,13 @@ def test_what_is_no_mission_is_refused_before_it_goes_to_sea(tmp_path: Path) -> 
 def test_a_mission_on_its_way_when_the_station_stops_is_told_as_interrupted(tmp_path: Path) -> None:
     with served() as vehicle:
         holds(vehicle, ORDERS)
-        vehicle.under_water = True
         with station(tmp_path, vehicle.address) as found:
+            until(lambda: ("in memory", "aboard") in states(found))
+            vehicle.under_water = True
             upload(Client(found), OTHER)
             until(lambda: states(found)[0][1] == "sending")
         with station(tmp_path, vehicle.address) as again:
-            until(lambda: states(again) == [("Another way", "interrupted")])
+            until(lambda: states(again) == [("Another way", "interrupted"), ("in memory", "aboard")])
             vehicle.under_water = False
             until(lambda: ("in memory", "aboard") in states(again))
             assert vehicle.missions.files == [ORDERS.encode()]

@@ -67,6 +67,8 @@ def test_frames_are_told_as_they_were_with_what_they_say(tmp_path: Path) -> None
         until(lambda: client.get("/vehicles/1/texts"))
         assert client.get("/vehicles/1/texts")[0]["words"] == "hello <b>"
         (frame,) = client.get("/vehicles/1/frames", message="GLIDER_STATE")
+        kept = {each["message"] for each in client.get("/vehicles/1/frames", limit=1000)}
+        assert client.get("/vehicles/1/messages") == sorted(kept) != []
         assert bytes.fromhex(frame["bytes"]) == vehicle.sent[0]
         assert (frame["direction"], frame["values"]["depth"]) == ("in", 3.5)
         client.refused("GET", "/vehicles/1/frames", 422, params={"message": "NOTHING"})

@@ -7,6 +7,8 @@ import pytest
 
 from stommel.station.channels import channel_named
 from stommel.station.clock import VehicleClock
+from stommel.station.periods import Periods
+from tests.station.client import Client
 from tests.station.speaker import speaker, until
 from tests.station.stations import station
 
@@ -68,13 +70,48 @@ def test_a_restart_of_the_station_forgets_neither_the_dive_nor_the_way(tmp_path:
 
 
 def test_a_slow_line_makes_no_value_stale_that_comes_as_it_can(tmp_path: Path) -> None:
+    """Oracle: the vehicle speaks every 8 s by the clock of the line; then a day of silence is no interval."""
     with speaker() as vehicle, station(tmp_path, vehicle.address, start=False) as found:
-        channel = channel_named("depth_m")
-        assert channel is not None
-        ingest = found.vehicles[1].ingest
-        assert ingest.period_of(channel) == channel.period_s
-        for k in range(100):
-            ingest._count("GLIDER_STATE", 1000.0 + 8.0 * k)
-        assert ingest.period_of(channel) == pytest.approx(8.0, rel=0.01)
-        ingest._count("GLIDER_STATE", 1e6)  # a silence
-        assert ingest.period_of(channel) == pytest.approx(8.0, rel=0.01)
+        ticks = [0.0]
+        clock = found.vehicles[1].clock
+        real = VehicleClock.link_now
+        clock.link_now = lambda: real(clock) + ticks[0]  # type: ignore[method-assign]
+        page = found.hub.subscribe("a", 1, ["depth_m"])
+        found.start()
+        vehicle.connect()
+
+        def told(depth: float, after: float) -> float:
+            ticks[0] += after
+            vehicle.say("GLIDER_STATE", time_boot_ms=1, depth=depth)
+            until(lambda: found.hub.values(1).get("depth_m", (0.0, 0.0))[1] == depth)
+            message = page.collect()
+            assert message is not None
+            return float(message["periods"].get("depth_m", 0.0))
+
+        assert told(1.0, 0.0) == 2.0, "of the table of channels, before anything is learned"
+        assert 8.0 <= max(told(2.0 + k, 8.0) for k in range(9)) < 9.0
+        client = Client(found)
+        latest = client.get("/vehicles/1/latest")["values"]["depth_m"]
+        assert 8.0 <= latest["period_s"] < 9.0
+        assert not latest["stale"]
+        assert told(50.0, DAY) == 0.0, "a silence is no news"
+        ticks[0] += 12.0
+        assert not client.get("/vehicles/1/latest")["values"]["depth_m"]["stale"]
+        ticks[0] += 12.0
+        assert client.get("/vehicles/1/latest")["values"]["depth_m"]["stale"]
+
+
+def test_periods_are_the_usual_intervals_and_never_below_the_table() -> None:
+    channel = channel_named("depth_m")
+    assert channel is not None
+    periods = Periods()
+    for t in (0.0, 30.0, 60.0, 4000.0, 4030.0, 4060.0, 4060.0, 4000.0, 4090.0):  # a dive, a doubled and a late one
+        periods.take("GLIDER_STATE", t)
+    assert periods.of(channel) == 30.0
+    for k in range(20):
+        periods.take("GLIDER_STATE", 5000.0 + 0.1 * k)
+    assert periods.of(channel) == channel.period_s
+    assert periods.of_key("no such channel") == 0.0
+    replayed = Periods()
+    replayed.take_samples([(key, t, 0.0) for t in (0.0, 9.0, 18.0) for key in ("depth_m", "phase", "dive")])
+    assert replayed.of(channel) == 9.0

@@ -43,6 +43,9 @@ def test_speed_made_good_is_the_way_between_the_ends_of_the_last_dive_by_its_tim
     found = summary_of(known(dives=(way,)))["speed_made_good"]
     assert found["m_s"] == pytest.approx(110_852 / 60 / 6000, rel=1e-3)
     assert found["course_deg"] == pytest.approx(0.0, abs=1e-6)
+    assert (found["dive"], found["t"]) == (4, NOW - 7200 + 6000)
+    later = dive(5, NOW - 1000, 10)  # without positions: the one before stands, and says which it is
+    assert summary_of(known(dives=(way, later)))["speed_made_good"] == found
     over = way._replace(latitude_end=30.0, longitude_begin=179.99, longitude_end=-179.99)
     found = summary_of(known(dives=(over,)))["speed_made_good"]
     assert found["course_deg"] == pytest.approx(90.0)
@@ -55,7 +58,9 @@ def test_current_is_of_the_last_dive_that_has_one() -> None:
         dive(2, NOW - 5000, 60, current_north_m_s=0.3, current_east_m_s=0.4),
         dive(3, NOW - 1000, 10),
     )
-    assert summary_of(known(dives=dives))["current"] == {"north_m_s": 0.3, "east_m_s": 0.4, "dive": 2}
+    summary = summary_of(known(dives=dives))
+    assert summary["current"] == {"north_m_s": 0.3, "east_m_s": 0.4, "dive": 2, "t": NOW - 5000 + 3600}
+    assert summary["speed_made_good"] is None
 
 
 def test_next_surfacing_is_the_begin_of_the_dive_and_the_mean_of_the_last_three() -> None:
@@ -73,6 +78,21 @@ def test_next_surfacing_is_the_begin_of_the_dive_and_the_mean_of_the_last_three(
     assert "no dive is announced" in held["missing"]["next_surfacing"]
 
 
+def test_a_drift_at_depth_is_a_part_of_the_dive() -> None:
+    """In drift the vehicle hangs in the water (docs/guide/missions.md); the expected surfacing stays what it was."""
+    dives = (dive(1, NOW - 9000, 60),)
+    drifts = known({"phase": 5.0, "surface_time_left_s": 0.0}, dives, left_surface=NOW - 600.0)
+    assert summary_of(drifts)["next_surfacing"]["t"] == NOW - 600.0 + 3600.0
+    underway = Underway()
+    underway.take([("phase", NOW - 10, 0.0), ("waypoint", NOW - 10, 1.0), ("waypoint_distance_m", NOW - 10, 5000.0)])
+    underway.take(
+        [("phase", NOW, 1.0), ("phase", NOW + 500, 5.0), ("phase", NOW + 900, 2.0), ("phase", NOW + 901, 3.0)]
+    )
+    assert underway.left_surface == NOW
+    underway.take([("waypoint_distance_m", NOW + 1000, 4500.0)])
+    assert underway.approach == Approach(NOW - 10, 500.0 / 1010.0), "no drift begins a dive"
+
+
 def test_eta_is_the_distance_by_how_fast_it_becomes_less() -> None:
     near = known({"waypoint_distance_m": 3000.0}, approach=Approach(NOW - 5000.0, 0.5))
     assert summary_of(near)["eta"] == {"t": NOW - 30.0 + 6000.0}
@@ -80,9 +100,14 @@ def test_eta_is_the_distance_by_how_fast_it_becomes_less() -> None:
     assert "no closer" in away["missing"]["eta"]
 
 
-def test_alarms_aboard_are_told_in_words_whatever_the_bits() -> None:
-    summary = summary_of(known({"vehicle_alarms": float(1 + 64), "state": 99.0, "phase": 77.0}))
-    assert [alarm["words"] for alarm in summary["alarms"]] == ["leak", "sinking on"]
+def test_what_the_vehicle_told_says_when() -> None:
+    latest = {"state": (NOW - 7.0, 3.0), "waypoint_distance_m": (NOW - 9.0, 100.0), "pitch_deg": (NOW, 0.0)}
+    assert summary_of(known()._replace(latest=latest))["told"] == {"state": NOW - 7.0, "waypoint_distance_m": NOW - 9.0}
+    assert summary_of(known())["told"] == {}
+
+
+def test_states_and_phases_of_which_nobody_knows_the_words_are_told_by_number() -> None:
+    summary = summary_of(known({"state": 99.0, "phase": 77.0}))
     assert (summary["state"], summary["phase"]) == ("state 99", "phase 77")
 
 

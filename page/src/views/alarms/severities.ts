@@ -8,10 +8,3 @@ const TAGS: Record<string, string> = { critical: 'warning', warning: 'caution', 
 export function tagOf(severity: string): string {
   return TAGS[severity] ?? '';
 }
-
-const RANK: Record<string, number> = { critical: 2, warning: 1, notice: 0 };
-
-/** Worst first, then the newest. */
-export function byUrgency(a: { severity: string; raised: number }, b: { severity: string; raised: number }): number {
-  return (RANK[b.severity] ?? 0) - (RANK[a.severity] ?? 0) || b.raised - a.raised;
-}

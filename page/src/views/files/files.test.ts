@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { counted, logWords } from './model';
+import { counted } from '../../lib/units';
+import { logWords } from './model';
 
 const taken = { state: 'taken' as const, words: 'whole, 16349 records', share: 1, samples: 12345, dives: 3, texts: 40, left_out: 0 };
 

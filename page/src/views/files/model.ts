@@ -1,7 +1,7 @@
 /** Files of a vehicle and their transfers, as the page shows them. */
 
 import type { StoredLog, Transfer } from '../../lib/types';
-import { bytes } from '../../lib/units';
+import { bytes, counted } from '../../lib/units';
 import { plainState, type Tone } from '../commands/model';
 
 export type { FolderEntry as Entry, StoredFile, Transfer } from '../../lib/types';
@@ -17,12 +17,6 @@ export function logWords(log: Omit<StoredLog, 'begin' | 'end'>): string {
   return log.words.startsWith('whole') ? told : `${told}; ${log.words}`;
 }
 
-/** A number of things, its thousands apart. */
-export function counted(count: number, thing: string): string {
-  const digits = String(count).replace(/\B(?=(\d{3})+$)/g, '\u202f');
-  return `${digits} ${thing}${count === 1 ? '' : 's'}`;
-}
-
 /** How much of a file is there, 0 to 1; null before its size is known. */
 export function shareOf(transfer: Transfer): number | null {
   if (/whole|done/.test(transfer.state)) return 1;
@@ -32,7 +26,10 @@ export function shareOf(transfer: Transfer): number | null {
 /** What a transfer is doing, in words. */
 export function transferWords(transfer: Transfer): string {
   const state = plainState(transfer.state);
-  if (transfer.is_over) return transfer.reason ? `${state}: ${transfer.reason}` : state;
+  if (transfer.is_over) {
+    if (transfer.reason.startsWith(state)) return transfer.reason;
+    return transfer.reason ? `${state}: ${transfer.reason}` : state;
+  }
   if (transfer.is_paused) return 'paused; goes on where it was';
   if (state === 'going') return transfer.reason || (transfer.direction === 'upload' ? 'is being sent' : 'is being fetched');
   return transfer.reason || state;

@@ -8,7 +8,7 @@ export type { LogEntry };
 
 const PAGE = 100;
 const REST_MS = 250;
-const KINDS: readonly EventKind[] = ['note', 'command', 'mission', 'alarm', 'text', 'log'];
+const KINDS: readonly EventKind[] = ['note', 'command', 'mission', 'alarm', 'parameter', 'holder', 'limit', 'text', 'log'];
 const NOTICE = 5;
 
 export class Feed {
@@ -24,8 +24,16 @@ export class Feed {
 
   constructor(readonly vehicle: number) {
     const again = (): void => this.#soon(() => void this.#refresh());
-    this.#ends = KINDS.map((kind) => live.on(kind, (event) => event.vehicle === vehicle && again()));
+    this.#ends = KINDS.map((kind) => live.on(kind, (event) => (event.vehicle ?? vehicle) === vehicle && again()));
     this.#ends.push(live.onOpen(again));
+    const states = new Map<number, string>();
+    const transfer = live.on('transfer', ({ vehicle: of, data }) => {
+      // how far a transfer is stands in another view; here only what becomes of it
+      if (of !== vehicle || states.get(data.id) === data.state) return;
+      states.set(data.id, data.state);
+      again();
+    });
+    this.#ends.push(transfer);
   }
 
   /** Shows entries of some kinds that have some words. If none is named: all kinds, but of what the vehicle said no mere information. */

@@ -2,7 +2,8 @@
 
 import type { ComponentParameters, Parameter, ParameterAnswer, ParameterWrite } from '../../lib/types';
 
-export type { ParameterAnswer, ParameterWrite as Write };
+export type { ParameterAnswer };
+export type Write = ParameterWrite;
 export type ParameterRow = Parameter & { component: number };
 export type ComponentRow = Omit<ComponentParameters, 'parameters'> & { parameters: ParameterRow[] };
 
@@ -124,6 +125,26 @@ export function found(rows: ParameterRow[], search: string, changedOnly: boolean
     const text = `${row.name} ${row.words} ${row.unit} ${unitOf(row)}`.toLowerCase();
     return wanted.every((word) => text.includes(word));
   });
+}
+
+/** The newest writing of each parameter that waits or was not taken, by component and name. */
+export function unsettled(writes: readonly Write[]): ReadonlyMap<string, Write> {
+  const newest = new Map<string, Write>();
+  for (const each of writes) {
+    const key = `${each.component}/${each.name}`;
+    if (!newest.has(key)) newest.set(key, each);
+  }
+  return new Map([...newest].filter(([, each]) => each.state !== 'done'));
+}
+
+/** How many writings wait, and how many were not taken, in words; empty if there are none. */
+export function unsettledWords(open: ReadonlyMap<string, Write>): string {
+  const waiting = [...open.values()].filter((each) => each.state === 'waiting').length;
+  const parts = [
+    waiting === 0 ? '' : `${waiting} ${waiting === 1 ? 'waits' : 'wait'}`,
+    waiting === open.size ? '' : `${open.size - waiting} not taken`,
+  ];
+  return parts.filter(Boolean).join(', ');
 }
 
 /** How much of a component is known, 0 to 1. */

@@ -8,6 +8,9 @@ import { tidy, type Plan } from './plan';
 
 export type { MissionRow };
 
+/** The station gives no more at once. */
+export const MOST_MISSIONS = 500;
+
 export class Aboard {
   readonly vehicle: number;
   mission = $state.raw<MissionAboard | null>(null);
@@ -15,6 +18,8 @@ export class Aboard {
   plan = $state.raw<Plan | null>(null);
   rows = $state.raw<MissionRow[]>([]);
   reason = $state('');
+  /** How many missions are asked for. */
+  most = $state(100);
   /** Which missions the plan was asked for. */
   private planOf = '';
 
@@ -51,7 +56,7 @@ export class Aboard {
       live.onOpen(() => void this.load()),
     ];
     const again = setInterval(() => {
-      if (this.mission?.upload) void this.load();
+      if (this.mission?.upload?.progress) void this.load();
     }, 1500);
     return () => {
       clearTimeout(timer);
@@ -60,11 +65,17 @@ export class Aboard {
     };
   }
 
+  /** Asks for older missions too. */
+  older(): void {
+    this.most = MOST_MISSIONS;
+    void this.load();
+  }
+
   async load(): Promise<void> {
     try {
       const [mission, rows] = await Promise.all([
         api.get<MissionAboard>(`/vehicles/${this.vehicle}/mission`),
-        api.get<MissionRow[]>(`/vehicles/${this.vehicle}/missions`),
+        api.get<MissionRow[]>(`/vehicles/${this.vehicle}/missions`, { limit: this.most }),
       ]);
       this.mission = mission;
       this.rows = rows;

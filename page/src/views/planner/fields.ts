@@ -125,7 +125,7 @@ const WORDS: Record<string, [label: string, hint: string]> = {
   ],
   'abort.leak': ['Leak', 'the mission ends when a detector finds water'],
   'abort.internal_pressure_kpa': ['Pressure in the hull', 'the mission ends above it: the vacuum is lost'],
-  'sampling.every_s': ['A sample every', 'time between two samples'],
+  'sampling.every_s': ['A sample every', 'time between two samples of the CTD; as the vehicle is configured if left empty'],
   'sampling.phases': ['In the phases', 'of the dive in which the CTD is on'],
 };
 

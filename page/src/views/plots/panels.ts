@@ -98,6 +98,11 @@ export function known(group: PanelGroup, channels: ReadonlyMap<string, Channel>)
     .filter((panel) => panel.channels.length > 0);
 }
 
+/** The channels of some panels, each once. */
+export function keysOf(panels: readonly Panel[]): string[] {
+  return [...new Set(panels.flatMap((panel) => panel.channels))];
+}
+
 /** Whether a channel is on or off. */
 export function isSwitch(channel: Channel): boolean {
   return channel.unit === '' && !channel.values && channel.low === 0 && channel.high === 1 && !channel.key.endsWith('_share');

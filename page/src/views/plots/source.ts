@@ -87,6 +87,7 @@ export class StationSource implements PlotSource {
   }
 
   period_s(channel: string): number | null {
-    return this.channels.get(channel)?.period_s ?? null;
+    const known = this.channels.get(channel);
+    return known ? untrack(() => live.period_s(this.liveKey, known)) : null;
   }
 }

@@ -52,7 +52,7 @@ def told_places(archive: Archive, vehicle: int, begin: float, end: float, level:
         return Places(*(np.empty(0) for _ in Places._fields))
     (latitude_t, latitude), (longitude_t, longitude) = (rows[key] for key in KEYS)
     both, at, also = np.intersect1d(latitude_t, longitude_t, assume_unique=True, return_indices=True)
-    t = both.astype(np.float64) * 1e-6
+    t = seconds(both)
     sigma = value_before(archive, vehicle, "position_sigma_m", begin, end, t)
     return Places(t, latitude[at], longitude[also], sigma)
 

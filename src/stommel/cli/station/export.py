@@ -45,7 +45,7 @@ def export(
         ),
     ],
     what: Annotated[
-        What, typer.Option("--what", help="Samples of the CTD with what follows from them, or all telemetry (CSV).")
+        What, typer.Option("--what", help="Samples of the CTD with what follows from them, or all telemetry.")
     ] = What.ctd,
     begin: BeginOption = "1970-01-01",
     end: EndOption = "2100-01-01",
@@ -61,10 +61,7 @@ def export(
     from stommel.archive import Archive
     from stommel.archive.address import address_of
     from stommel.archive.looking import require_there
-    from stommel.files.whole import require_file
 
-    if what is What.telemetry:
-        require_file(output, (".csv",))
     span = _span(begin, end)
     url = database_url(settings, database, folder)
     require_there(address_of(url))
@@ -104,9 +101,15 @@ def require_known(archive: "Archive", vehicle: int) -> None:
 
 
 def _write_telemetry(archive: "Archive", vehicle: int, begin: float, end: float, output: Path) -> int:
+    from stommel.archive.sample_pieces import kept_channels, sample_pieces
     from stommel.archive.telemetry_file import write_telemetry
+    from stommel.data.files import write_netcdf_pieces
+    from stommel.station.products.telemetry import telemetry_pieces
 
-    return write_telemetry(archive, vehicle, begin, end, output)
+    keys = kept_channels(archive, vehicle)
+    if output.suffix.lower() == ".nc":
+        return write_netcdf_pieces(telemetry_pieces(archive, vehicle, keys, begin, end), output)
+    return write_telemetry(sample_pieces(archive, vehicle, keys, begin, end), output)
 
 
 def _write_ctd(archive: "Archive", vehicle: int, begin: float, end: float, output: Path) -> int:
@@ -119,5 +122,5 @@ def _write_ctd(archive: "Archive", vehicle: int, begin: float, end: float, outpu
     if not count:
         raise OutputError(f"{output}: not written: there are no samples of the CTD in this time")
     pieces = (trajectory(archive, vehicle, each) for each in records.pieces(vehicle, begin, end))
-    (write_netcdf_pieces if output.suffix == ".nc" else write_csv_pieces)(pieces, output)
+    (write_netcdf_pieces if output.suffix.lower() == ".nc" else write_csv_pieces)(pieces, output)
     return count

@@ -73,6 +73,8 @@ class OrdersClient:
         self._task: _Task | None = None
         self.outcome: OrdersOutcome | None = None
         """How the last request ended; None while one runs, or before the first."""
+        self.is_told = False
+        """Whether the vehicle may have been told to carry out the last request."""
 
     # what can be asked for
 
@@ -100,7 +102,11 @@ class OrdersClient:
     def _begin(self, task: _Task) -> None:
         self._number += 1
         task.number = self._number
-        self._task, self.outcome = task, None
+        self._task, self.outcome, self.is_told = task, None, False
+
+    def drop(self) -> None:
+        """Forget the request that runs; what the vehicle was told already, it may carry out all the same."""
+        self._task = None
 
     def progress(self, t: float) -> Progress:
         """How far the sending of a file has come, in bytes."""
@@ -215,6 +221,7 @@ class OrdersClient:
             told: Fields = {**self._target(), "size": len(task.content), "sha256": task.sha256}
             outbox.put(Priority.DATA, "ORDERS_ANNOUNCE", told)
         else:
+            self.is_told = True
             told = {
                 **self._target(), "session": self._session, "number": task.number, "action": task.action,
                 "sha256": task.sha256,

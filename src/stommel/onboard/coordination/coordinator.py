@@ -93,7 +93,8 @@ class Coordinator:
         self._was_surfaced = True
         self._sources = Sources(self.perception, self.instruments, t, has_altimeter=settings.has_altimeter)
         self.health = self._sources.monitor
-        self._sample_every = settings.schedule.ctd[self.pilot.phase]
+        self._mission_samples_every: float | None = None
+        self._sample_every = self._wanted_samples()
 
     def request(self, requests: OperatorRequests) -> None:
         """Ask for something, at the next decision, beside what was asked before it."""
@@ -128,15 +129,18 @@ class Coordinator:
         memory["line_latitude"], memory["line_longitude"] = memory["latitude"], memory["longitude"]
         return ""
 
-    def adopt(self, orders: Orders, expires: float = float("inf"), mission: int = 0) -> None:
+    def adopt(
+        self, orders: Orders, expires: float = float("inf"), mission: int = 0, sample_every: float | None = None
+    ) -> None:
         """Take the orders of a mission that has been validated, and fly them until a time [s].
 
-        The mission that was flown before a restart, by its number, is taken up where it was.
+        The mission that was flown before a restart, by its number, is taken up where it was. `sample_every` is the time
+        between two samples of the CTD [s]; None leaves it to the configuration.
         """
         before = self._before
         taken_up = mission == before.mission and before.starts > 0
         self.pilot.adopt(orders, *((before.waypoint, before.energy_used) if taken_up else ()))
-        self.expires, self.mission = expires, mission
+        self.expires, self.mission, self._mission_samples_every = expires, mission, sample_every
 
     def step(
         self, t: float, frames: Iterable[Frame], bytes_in: Mapping[str, bytes]
@@ -252,11 +256,16 @@ class Coordinator:
         """Remember since when receiver, radio and payload are on."""
         self.health.switch(GPS, commands.radio, t)
         self.health.switch(RADIO, commands.radio, t)
-        every = self.settings.schedule.ctd[self.pilot.phase]
+        every = self._wanted_samples()
         if every != self._sample_every:
             self._sample_every = every
             self.health.switch(CTD, False, t)  # what was heard at another interval says nothing of this one
         self.health.switch(CTD, commands.sampling, t)
+
+    def _wanted_samples(self) -> float:
+        """Time between two samples of the CTD [s]: that of the mission, else that of the configuration."""
+        every = self._mission_samples_every
+        return self.settings.schedule.ctd[self.pilot.phase] if every is None else every
 
     def _dives_soon(self, state: ExecutiveState, t: float) -> bool:
         """Whether the stay at the surface is nearly over: a pump that died since it last ran must be found up here."""

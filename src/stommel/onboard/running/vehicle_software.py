@@ -135,7 +135,8 @@ class VehicleSoftware:
         mission = self.missions.active
         if mission is None:
             return
-        self.coordinator.adopt(mission.orders, t + self._time_left(mission, t), mission.number)
+        expires = t + self._time_left(mission, t)
+        self.coordinator.adopt(mission.orders, expires, mission.number, mission.header.sample_every_s)
         self._say(f"mission {mission.number}: {mission.header.mission}, for {mission.header.vehicle}")
 
     def _time_left(self, mission: StoredMission, t: float) -> float:

@@ -127,7 +127,8 @@ def _told(orders: Orders, header: OrdersHeader) -> dict[str, Any]:
             "dead_band_m": _neat(laws.drift.dead_band),
             "period_s": _neat(laws.drift.period),
         },
-        "sampling": {"phases": _phases(orders)},
+        "sampling": {"phases": _phases(orders)}
+        | ({} if header.sample_every_s is None else {"every_s": header.sample_every_s}),
     }
 
 

@@ -1,12 +1,11 @@
 """From a plan to orders that a vehicle understands, and everything that its vehicle and its water refuse."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from stommel.control.orders_file import orders_text
 from stommel.control.vehicle_limits import refusals
 from stommel.errors import StommelError
-from stommel.mission.plan import Sampling
 from stommel.planning.vehicle_limits import vehicle_limits
 from stommel.plans.plan import StationPlan
 from stommel.plans.preview.bottom import bottom_problems, bottom_remarks
@@ -29,6 +28,7 @@ _PLAN_KEYS = {
     "dives.surfaced_depth_m": "surface.depth_m",
     "dives.abort_depth_m": "abort.depth_m",
     "heading_control.limit": "heading_control.limit_deg",
+    "sample_every_s": "sampling.every_s",
     "alarms.energy_j": "abort.battery_share",
     "alarms.internal_pressure_pa": "abort.internal_pressure_kpa",
 }
@@ -63,7 +63,7 @@ def ordered(plan: StationPlan) -> Ordered:
     except StommelError as error:
         return Ordered(None, (*wrong, *problems_of(error)), ())
     wrong += bottom_problems(plan, mission.ocean)
-    text, refused = _orders(mission)
+    text, refused = _orders(plan, mission)
     if wrong or refused:
         return Ordered(None, (*wrong, *refused), ())
     return Ordered(text, (), tuple(_warnings(plan, mission)))
@@ -83,8 +83,8 @@ def orders_for(plan: StationPlan) -> str:
     return found.orders
 
 
-def _orders(mission: Mission) -> tuple[str | None, list[PlanProblem]]:
-    header = orders_header(mission)
+def _orders(plan: StationPlan, mission: Mission) -> tuple[str | None, list[PlanProblem]]:
+    header = replace(orders_header(mission), sample_every_s=_sample_every(plan))
     try:
         orders = planned_orders(mission)
         limits = vehicle_limits(mission.vehicle)
@@ -104,16 +104,9 @@ def _warnings(plan: StationPlan, mission: Mission) -> list[str]:
         *(remark.message for remark in remarks(mission)),
         *bottom_remarks(plan, mission.ocean),
         *endurance_remarks(plan, mission),
-        *_interval(plan),
     ]
 
 
-def _interval(plan: StationPlan) -> list[str]:
-    """Orders say in which phases the CTD measures, not how often: that is a setting of the vehicle's software."""
-    every = plan.sampling.every_s
-    if every == Sampling().every_s:
-        return []
-    return [
-        f"sampling.every_s = {every:g}: orders do not hold it; how often the CTD measures is a setting of the "
-        "vehicle's software (sample_every_s of its configuration)"
-    ]
+def _sample_every(plan: StationPlan) -> float | None:
+    """How often the CTD measures [s]; None where the plan leaves it to the vehicle's configuration."""
+    return plan.sampling.every_s if "every_s" in plan.sampling.model_fields_set else None

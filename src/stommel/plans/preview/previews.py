@@ -262,5 +262,5 @@ class Previews:
 
 
 def _plain(plan: StationPlan) -> dict[str, Any]:
-    """A plan as its JSON has it."""
-    return plan.model_dump(mode="json", exclude_none=True)
+    """A plan as its JSON has it; what people left out is left out."""
+    return plan.model_dump(mode="json", exclude_none=True, exclude_unset=True)

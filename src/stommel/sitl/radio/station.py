@@ -60,7 +60,7 @@ class Station:
             self._draw.bytes,
             self._storage,
             port,
-            lambda found: coordinator.adopt(found.orders, expires, found.number),
+            lambda found: coordinator.adopt(found.orders, expires, found.number, found.header.sample_every_s),
             VehicleFiles(self._inbox, port.texts, coordinator.recorder.logbook),
         )
 

@@ -34,3 +34,10 @@ class Alarm:
             "raised": self.raised, "cleared": self.cleared, "acknowledged": self.acknowledged,
             "acknowledged_by": self.acknowledged_by, "value": value, "note": self.note,
         }  # fmt: skip
+
+    def as_brief(self) -> dict[str, Any]:
+        """The alarm as summaries tell it: what those must know who look at everything at once."""
+        return {
+            "id": self.id, "vehicle": self.vehicle, "key": self.key, "words": self.words, "severity": self.severity,
+            "raised": self.raised, "acknowledged": self.acknowledged, "acknowledged_by": self.acknowledged_by,
+        }  # fmt: skip

@@ -1,6 +1,7 @@
 """Alarms in the archive: one row for each raising."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from sqlalchemy import Row, and_, insert, or_, select, update
 
@@ -28,6 +29,16 @@ class History:
     def open_alarms(self) -> list[Alarm]:
         """All that are not cleared, the oldest first."""
         return self._found(select(table).where(table.c.cleared_us.is_(None)).order_by(table.c.raised_us, table.c.id))
+
+    def open_at(self, vehicle: int, t: float) -> list[Alarm]:
+        """Those of a vehicle that were open at a time [s], as they were known then, the oldest first."""
+        t_us = microseconds(t)
+        query = select(table).where(
+            table.c.vehicle_id == vehicle,
+            table.c.raised_us <= t_us,
+            or_(table.c.cleared_us.is_(None), table.c.cleared_us > t_us),
+        )
+        return [_as_of(alarm, t) for alarm in self._found(query.order_by(table.c.raised_us, table.c.id))]
 
     def listed(
         self,
@@ -129,6 +140,13 @@ def _alarm(row: Row[tuple[object, ...]]) -> Alarm:
         row.id, row.vehicle_id, row.key, row.words, row.severity, seconds(row.raised_us), row.value,
         _time(row.cleared_us), _time(row.acknowledged_us), row.acknowledged_by, row.note,
     )  # fmt: skip
+
+
+def _as_of(alarm: Alarm, t: float) -> Alarm:
+    """An open alarm without what became of it later."""
+    if alarm.acknowledged is not None and alarm.acknowledged > t:
+        alarm = replace(alarm, acknowledged=None, acknowledged_by=None, note=None)
+    return replace(alarm, cleared=None)
 
 
 def _time(us: int | None) -> float | None:

@@ -7,8 +7,8 @@ from sqlalchemy import delete, insert, select
 
 from stommel.archive.archive import Archive
 from stommel.archive.schema import limits as table
-from stommel.archive.times import microseconds
-from stommel.station.alarms.limits import Limit
+from stommel.archive.times import microseconds, seconds
+from stommel.station.alarms.limits import KeptLimit, Limit
 
 
 class LimitTable:
@@ -17,14 +17,14 @@ class LimitTable:
     def __init__(self, archive: Archive) -> None:
         self._archive = archive
 
-    def limits_of(self, vehicle: int) -> list[Limit]:
+    def limits_of(self, vehicle: int) -> list[KeptLimit]:
         """Limits of a vehicle, by channel."""
         with self._archive.reading() as connection:
             rows = connection.execute(select(table).where(table.c.vehicle_id == vehicle).order_by(table.c.channel))
             return [
-                Limit(
+                KeptLimit(
                     channel=row.channel, low=row.low, high=row.high, hysteresis=row.hysteresis, delay_s=row.delay_s,
-                    severity=row.severity,
+                    severity=row.severity, changed=seconds(row.changed_us), changed_by=row.changed_by,
                 )
                 for row in rows
                 if row.low is not None or row.high is not None

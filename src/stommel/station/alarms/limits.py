@@ -68,6 +68,15 @@ class Limit(LimitValues):
         )
 
 
+class KeptLimit(Limit):
+    """A limit as the archive has it."""
+
+    changed: float
+    """When somebody set it, by the station's clock [s since 1970]."""
+    changed_by: str
+    """Who did."""
+
+
 def limit_key(channel: str, side: Side) -> str:
     """Key of the alarm of one side of a channel's limit."""
     return f"limit:{channel}:{side}"

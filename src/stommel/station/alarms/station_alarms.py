@@ -18,7 +18,7 @@ from stommel.station.alarms.contact_watch import Contact
 from stommel.station.alarms.history import History
 from stommel.station.alarms.limit_table import LimitTable
 from stommel.station.alarms.limit_watch import Sample
-from stommel.station.alarms.limits import Limit, Naming
+from stommel.station.alarms.limits import KeptLimit, Limit, Naming
 from stommel.station.alarms.register import Register
 from stommel.station.alarms.severity import Severity
 from stommel.station.alarms.vehicle_watch import VehicleWatch
@@ -119,7 +119,10 @@ class StationAlarms:
         self._limits.add_new(vehicle, defaults, "vehicle file")
         open_keys = [alarm.key for alarm in self._register.open_of(vehicle)]
         watch = VehicleWatch(self._naming, self._settings, open_keys)
-        begun = watch.begin(self._limits.limits_of(vehicle), self._archive.latest(vehicle))
+        limits = [
+            Limit(**kept.model_dump(exclude={"changed", "changed_by"})) for kept in self._limits.limits_of(vehicle)
+        ]
+        begun = watch.begin(limits, self._archive.latest(vehicle))
         self._watched[vehicle] = _Watched(watch, now, contact)
         self._register.put(vehicle, begun)
 
@@ -199,6 +202,10 @@ class StationAlarms:
     def limits_of(self, vehicle: int) -> list[Limit]:
         """Limits of a vehicle, by channel."""
         return self._watched[vehicle].watch.limits()
+
+    def kept_limits(self, vehicle: int) -> list[KeptLimit]:
+        """Limits of a vehicle, by channel, and who set each."""
+        return self._limits.limits_of(vehicle)
 
     def put_limit(self, vehicle: int, limit: Limit, user: str) -> None:
         """Keep a limit in place of the channel's limit before, and watch it.

@@ -49,6 +49,12 @@ def _unknown(bit: int) -> VehicleAlarm:
     return VehicleAlarm(bit, f"{PREFIX}bit {bit.bit_length() - 1}", f"Alarm {bit.bit_length() - 1}", "warning")
 
 
+def alarms_in(bits: int) -> list[VehicleAlarm]:
+    """Alarms that bits stand for; one that nobody knows has its number for a name."""
+    named = {alarm.bit: alarm for alarm in known_alarms()}
+    return [named.get(1 << place) or _unknown(1 << place) for place in range(64) if bits >> place & 1]
+
+
 class VehicleAlarmWatch:
     """Bits in, alarms that begin or end out; a bit that nobody knows has its number for a name.
 
@@ -60,8 +66,7 @@ class VehicleAlarmWatch:
 
     def __init__(self, open_keys: Iterable[str] = ()) -> None:
         raised = set(open_keys)
-        named = {alarm.bit: alarm for alarm in known_alarms()}
-        self._watched = [named.get(1 << place) or _unknown(1 << place) for place in range(64)]
+        self._watched = alarms_in((1 << 64) - 1)
         self._thresholds = [Threshold(0.5, above=True, raised=alarm.key in raised) for alarm in self._watched]
         self._seen = sum(alarm.bit for alarm in self._watched if alarm.key in raised)
 

@@ -6,7 +6,8 @@ from threading import Lock
 
 from stommel.errors import StommelError
 from stommel.station.live.events import Event, Samples, Summary, Vehicle
-from stommel.station.live.subscription import EverySample, LatestValues, News
+from stommel.station.live.subscription import EverySample, LatestValues, News, ToldPeriods
+from stommel.station.periods import Periods
 
 MOST_CHANNELS = 200
 """Of one subscription."""
@@ -28,6 +29,7 @@ class Hub:
         self._lock = Lock()
         self._latest: dict[Vehicle, dict[str, tuple[float, float]]] = {}
         self._clocks: dict[Vehicle, Callable[[], float]] = {}
+        self._periods: dict[Vehicle, Callable[[str], float]] = {}
         self._summaries: dict[Vehicle, Summary] = {}
         self._readers: dict[Vehicle, tuple[LatestValues | EverySample, ...]] = {}
         self._news: tuple[News, ...] = ()
@@ -35,11 +37,16 @@ class Hub:
     # who brings
 
     def open(
-        self, vehicle: Vehicle, now: Callable[[], float], latest: Mapping[str, tuple[float, float]] | None = None
+        self,
+        vehicle: Vehicle,
+        now: Callable[[], float],
+        latest: Mapping[str, tuple[float, float]] | None = None,
+        period_of: Callable[[str], float] | None = None,
     ) -> None:
-        """Take in a vehicle with its clock, and the values that are known of it."""
+        """Take in a vehicle with its clock, the values that are known of it, and how often each comes [s]."""
         with self._lock:
             self._clocks[vehicle] = now
+            self._periods[vehicle] = period_of or Periods().of_key
             self._latest.setdefault(vehicle, {}).update(latest or {})
 
     def restart(self, vehicle: Vehicle, latest: Mapping[str, tuple[float, float]]) -> None:
@@ -54,7 +61,7 @@ class Hub:
         """Drop a vehicle, such as a replay that has ended, and end whoever waits for its values."""
         with self._lock:
             readers = self._readers.pop(vehicle, ())
-            for known in (self._latest, self._clocks, self._summaries):
+            for known in (self._latest, self._clocks, self._periods, self._summaries):
                 known.pop(vehicle, None)
         for reader in readers:
             reader.close()
@@ -125,10 +132,11 @@ class Hub:
         if len(channels) > MOST_CHANNELS:
             raise SubscriptionError(f"channels: {len(channels)} were asked for; at most {MOST_CHANNELS} are allowed")
         wanted = frozenset(channels)
+        periods = ToldPeriods(self._periods.get(vehicle, Periods().of_key))
         reader = (
-            EverySample(identity, vehicle, wanted)
+            EverySample(identity, vehicle, wanted, periods)
             if every
-            else LatestValues(identity, vehicle, wanted, lambda: (self.now(vehicle), self.values(vehicle)))
+            else LatestValues(identity, vehicle, wanted, lambda: (self.now(vehicle), self.values(vehicle)), periods)
         )
         self._sweep()
         with self._lock:

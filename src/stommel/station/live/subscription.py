@@ -1,7 +1,7 @@
 """What readers can wait for: the latest values, every sample, or what happens."""
 
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from stommel.station.live.events import Happening, Samples, Summary, Vehicle
@@ -12,19 +12,40 @@ VALUES_EVERY = 0.2
 MOST_SAMPLES = 50_000
 """That wait for a reader of every sample."""
 MOST_HAPPENINGS = 1000
+NEW_PERIOD = 1.2
+"""A period is told again when it is longer or shorter by this factor than it was told."""
 
 Latest = Mapping[str, tuple[float, float]]
+
+
+class ToldPeriods:
+    """How often values come, as one reader knows it."""
+
+    def __init__(self, period_of: Callable[[str], float]) -> None:
+        self._period_of = period_of
+        self._told: dict[str, float] = {}
+
+    def news(self, channels: Iterable[str]) -> dict[str, float]:
+        """Periods that the reader does not know yet, of some channels [s]."""
+        found = {}
+        for key in channels:
+            period, known = self._period_of(key), self._told.get(key, 0.0)
+            if not known / NEW_PERIOD <= period <= known * NEW_PERIOD:
+                found[key] = round(period, 3)
+        self._told.update(found)
+        return found
 
 
 class LatestValues(Mailbox):
     """The latest value of each channel, those that have changed; a slow reader skips."""
 
     def __init__(
-        self, identity: str, vehicle: Vehicle, channels: frozenset[str], look: Callable[[], tuple[float, Latest]]
-    ) -> None:
+        self, identity: str, vehicle: Vehicle, channels: frozenset[str], look: Callable[[], tuple[float, Latest]],
+        periods: ToldPeriods,
+    ) -> None:  # fmt: skip
         super().__init__(VALUES_EVERY)
         self.vehicle = vehicle
-        self._identity, self._channels, self._look = identity, channels, look
+        self._identity, self._channels, self._look, self._periods = identity, channels, look, periods
         self._sent: dict[str, tuple[float, float]] = {}
         self._is_first = True
 
@@ -53,17 +74,17 @@ class LatestValues(Mailbox):
         self._sent.update(news)
         return {
             "type": "values", "id": self._identity, "vehicle": self.vehicle, "now": now,
-            "values": {key: list(pair) for key, pair in news.items()},
+            "values": {key: list(pair) for key, pair in news.items()}, "periods": self._periods.news(news),
         }  # fmt: skip
 
 
 class EverySample(Mailbox):
     """All samples; a reader that is too slow is told from when on some are missing."""
 
-    def __init__(self, identity: str, vehicle: Vehicle, channels: frozenset[str]) -> None:
+    def __init__(self, identity: str, vehicle: Vehicle, channels: frozenset[str], periods: ToldPeriods) -> None:
         super().__init__(VALUES_EVERY)
         self.vehicle = vehicle
-        self._identity, self._channels = identity, channels
+        self._identity, self._channels, self._periods = identity, channels, periods
         self._waiting: deque[Samples] = deque()
         self._count = 0
         self._gap: float | None = None
@@ -109,7 +130,7 @@ class EverySample(Mailbox):
             return None
         return {
             "type": "samples", "id": self._identity, "vehicle": self.vehicle, "now": waiting[-1].now,
-            "samples": {key: list(pair) for key, pair in found.items()},
+            "samples": {key: list(pair) for key, pair in found.items()}, "periods": self._periods.news(found),
         }  # fmt: skip
 
 

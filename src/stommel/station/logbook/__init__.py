@@ -1,1 +1,1 @@
-"""The log book: notes of people, and beside them commands, missions, alarms, and what the vehicle said."""
+"""The log book: notes of people, and beside them what people did, alarms, and what the vehicle said."""

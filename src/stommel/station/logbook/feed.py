@@ -1,13 +1,14 @@
-"""Everything about a vehicle in one list by time: notes, commands, missions, alarms, and what it said in words."""
+"""Everything about a vehicle in one list by time: notes, what people did and what became of it, alarms, its words."""
 
 import re
 from collections.abc import Callable, Collection
 from typing import Any, NamedTuple
 
-from sqlalchemy import ColumnElement, Row, Table, and_, false, or_, select
+from sqlalchemy import ColumnElement, Row, Table, and_, false, or_, select, true
 
 from stommel.archive import Archive
-from stommel.archive.schema import alarms, commands, missions, notes, texts
+from stommel.archive.doing_table import doings
+from stommel.archive.schema import alarms, commands, files, missions, notes, parameter_writes, texts
 from stommel.archive.times import seconds
 from stommel.station.logbook.searching import has_words
 
@@ -17,6 +18,8 @@ class Entry(NamedTuple):
 
     kind: str
     id: str
+    vehicle: int | None
+    """None: of the station, by whose clock the time then is."""
     t: float
     user: str | None
     words: str
@@ -33,6 +36,9 @@ class _Source(NamedTuple):
     time: str
     searched: tuple[str, ...]
     told: Callable[[Row[Any]], Told]
+    only: ColumnElement[bool] = true()
+    """Which rows of the table."""
+    is_also_of_station: bool = False
 
 
 def _alarm(row: Row[Any]) -> Told:
@@ -49,6 +55,20 @@ def _command(row: Row[Any]) -> Told:
 
 def _mission(row: Row[Any]) -> Told:
     return row.user, f"Mission {row.name}", row.state
+
+
+def _parameter(row: Row[Any]) -> Told:
+    words = f"Parameter {row.name} of component {row.component} set to {row.value:.10g}"
+    return row.user, words, _with(row.state, row.words)
+
+
+def _transfer(row: Row[Any]) -> Told:
+    way = "from the vehicle" if row.direction == "download" else "to the vehicle"
+    return row.user, f"File {row.path} {way}", _with("under way" if row.state == "going" else row.state, row.reason)
+
+
+def _doing(row: Row[Any]) -> Told:
+    return row.user, row.words, None
 
 
 def _note(row: Row[Any]) -> Told:
@@ -69,15 +89,19 @@ def _with(words: str, more: str | None) -> str:
 
 
 SOURCES: dict[str, _Source] = {
-    "alarm": _Source(alarms, "raised_us", ("words", "note", "acknowledged_by"), _alarm),
+    "alarm": _Source(alarms, "raised_us", ("words", "note", "acknowledged_by"), _alarm, is_also_of_station=True),
     "command": _Source(commands, "given_us", ("name", "outcome", "user"), _command),
+    "hold": _Source(doings, "t_us", ("words", "user"), _doing, doings.c.kind == "hold"),
+    "limit": _Source(doings, "t_us", ("words", "user"), _doing, doings.c.kind == "limit"),
     "mission": _Source(missions, "t_us", ("name", "user"), _mission),
-    "note": _Source(notes, "t_us", ("words", "user"), _note),
+    "note": _Source(notes, "t_us", ("words", "user"), _note, is_also_of_station=True),
+    "parameter": _Source(parameter_writes, "t_us", ("name", "words", "user"), _parameter),
     "text": _Source(texts, "t_us", ("words",), _text),
+    "transfer": _Source(files, "t_us", ("path", "reason", "user"), _transfer),
 }
 """Where entries come from; at equal times in this order."""
 
-CURSOR = r"^(\d{1,17})-(alarm|command|mission|note|text)-([0-9a-f]{1,16})$"
+CURSOR = rf"^(\d{{1,17}})-({'|'.join(SOURCES)})-([0-9a-f]{{1,16}})$"
 """Of a page: time, kind and number of the last entry."""
 
 
@@ -99,7 +123,7 @@ def page_of(
     before: str | None = None,
     limit: int = 100,
 ) -> Page:
-    """A page of the log book of a vehicle.
+    """A page of the log book of a vehicle, with the alarms and notes that are of the station.
 
     Parameters
     ----------
@@ -124,7 +148,7 @@ def page_of(
             if kind not in kinds:
                 continue
             t_us, number = source.table.c[source.time], source.table.c.id
-            query = select(source.table).where(source.table.c.vehicle_id == vehicle, _is_before(kind, source, before))
+            query = select(source.table).where(_is_of(source, vehicle), source.only, _is_before(kind, source, before))
             query = query.where(has_words(search, *(source.table.c[name] for name in source.searched)))
             if source.table is texts:
                 query = query.where(texts.c.severity <= severity)
@@ -138,12 +162,17 @@ def page_of(
 def _entry(kind: str, source: _Source, row: Row[Any]) -> Entry:
     t = seconds(row._mapping[source.time])
     user, words, state = source.told(row)
-    return Entry(kind, str(row.id), t, user, words, state)
+    return Entry(kind, str(row.id), row.vehicle_id, t, user, words, state)
+
+
+def _is_of(source: _Source, vehicle: int) -> ColumnElement[bool]:
+    of = source.table.c.vehicle_id
+    return or_(of == vehicle, of.is_(None)) if source.is_also_of_station else of == vehicle
 
 
 def _is_before(kind: str, source: _Source, before: str | None) -> ColumnElement[bool]:
     if before is None:
-        return source.table.c.vehicle_id.is_not(None)
+        return true()
     told = re.fullmatch(CURSOR, before)
     if told is None:
         return false()

@@ -126,6 +126,13 @@ class Holders:
                 self._told(vehicle, None)
 
 
+def taking(hold: Hold) -> str:
+    """How somebody came to hold command, in words."""
+    if hold.taken_from is None:
+        return "Took command"
+    return f"Took command from {hold.taken_from}" + (f": {hold.reason}" if hold.reason else "")
+
+
 def _hold(connection: Connection, vehicle: int) -> Hold | None:
     row = connection.execute(select(holders).where(holders.c.vehicle_id == vehicle)).one_or_none()
     if row is None:

@@ -9,6 +9,7 @@ from stommel.archive.archive import Archive
 from stommel.archive.errors import ArchiveError
 from stommel.archive.log_tables import profiles
 from stommel.archive.schema import vehicles
+from stommel.archive.times import seconds
 from stommel.archive.upserting import insert_rows
 from stommel.data.summaries import ProfileSummary
 
@@ -34,7 +35,7 @@ def kept(archive: Archive, vehicle: int) -> tuple[list[Found], int]:
     found = []
     for number, row in enumerate(rows, 1):
         line = ProfileSummary(
-            number, row.direction, row.first_us * 1e-6, row.last_us * 1e-6, row.samples, row.dive, row.latitude,
+            number, row.direction, seconds(row.first_us), seconds(row.last_us), row.samples, row.dive, row.latitude,
             row.longitude, row.least_depth_m, row.greatest_depth_m,
         )  # fmt: skip
         found.append(Found(row.first_us, row.last_us, row.turned_us, row.settled, line))

@@ -9,6 +9,7 @@ import xarray as xr
 
 from stommel.archive.archive import Archive
 from stommel.archive.ctd_reading import PIECE, CtdPiece, count_between, ctd_pieces
+from stommel.archive.times import microseconds, seconds
 from stommel.data.derived import DERIVED
 from stommel.data.gridding import MOST_CELLS, joined, section
 from stommel.data.profiles import with_numbers
@@ -21,7 +22,6 @@ MOST_COLUMNS = 800
 """Profiles of a section: more than a picture shows. Of more every second, third ... is taken."""
 MOST_READ = 400_000
 """Samples of which those of a diagram are chosen; of more only every second, third ... profile is read."""
-_MICRO = 1e6
 
 
 class SampleRecords:
@@ -42,7 +42,7 @@ class SampleRecords:
 
     def lines(self, vehicle: int, begin: float, end: float) -> list[ProfileSummary]:
         """Of the profiles that have samples between two times [s since 1970]."""
-        return [found.line for found in self._touching(vehicle, _us(begin), _us(end))]
+        return [found.line for found in self._touching(vehicle, microseconds(begin), microseconds(end))]
 
     def profile(self, vehicle: int, number: int) -> tuple[ProfileSummary, xr.Dataset] | None:
         """Line and samples of one profile; None if there is none of this number."""
@@ -58,17 +58,17 @@ class SampleRecords:
 
         The first may be empty.
         """
-        first, last = _us(begin), _us(end)
+        first, last = microseconds(begin), microseconds(end)
         return self._read(vehicle, first, last, self._touching(vehicle, first, last), DERIVED)
 
     def count(self, vehicle: int, begin: float, end: float) -> int:
         """How many samples there are between two times [s since 1970]."""
         with self._archive.reading() as connection:
-            return count_between(connection, vehicle, _us(begin), _us(end))
+            return count_between(connection, vehicle, microseconds(begin), microseconds(end))
 
     def thinned(self, vehicle: int, begin: float, end: float, wanted: Collection[str]) -> Iterator[xr.Dataset]:
         """Samples between two times; where there are very many, those of every second, third ... profile."""
-        first, last = _us(begin), _us(end)
+        first, last = microseconds(begin), microseconds(end)
         found = self._touching(vehicle, first, last)
         stride = max(1, -(-self.count(vehicle, begin, end) // MOST_READ))
         if stride == 1 or len(found) < stride:
@@ -85,7 +85,7 @@ class SampleRecords:
         ValueError
             The cell is out of range, or there would be more than `MOST_CELLS`.
         """
-        first, last = _us(begin), _us(end)
+        first, last = microseconds(begin), microseconds(end)
         found = self._touching(vehicle, first, last)
         stride = max(1, -(-len(found) // MOST_COLUMNS))
         chosen = found[::stride]
@@ -133,12 +133,8 @@ class SampleRecords:
         return found[begin : bisect_right(found, last, key=lambda one: one.first_us)]
 
 
-def _us(t: float) -> int:
-    return round(t * _MICRO)
-
-
 def _numbered(found: Sequence[Found]) -> list[tuple[int, int, float, float]]:
-    return [(one.line.number, one.line.direction, one.first_us * 1e-6, one.last_us * 1e-6) for one in found]
+    return [(one.line.number, one.line.direction, seconds(one.first_us), seconds(one.last_us)) for one in found]
 
 
 def _groups(found: Sequence[Found]) -> Iterator[Sequence[Found]]:

@@ -35,15 +35,15 @@ def samples_of(archive: Archive, vehicle: int, piece: CtdPiece, wanted: Collecti
     return with_derived(made, wanted)
 
 
-def trajectory(archive: Archive, vehicle: int, samples: xr.Dataset) -> xr.Dataset:
-    """Samples of a vehicle as a CF trajectory with its name."""
+def trajectory(archive: Archive, vehicle: int, samples: xr.Dataset, what: str = "CTD samples") -> xr.Dataset:
+    """Samples of a vehicle as a CF trajectory with its name; `what` they are stands in the title."""
     with archive.reading() as connection:
         row = connection.execute(
             select(schema.vehicles.c.name, schema.vehicles.c.model).where(schema.vehicles.c.id == vehicle)
         ).first()
     name, model = ("", "") if row is None else (row.name, row.model)
     about = {
-        "title": f"CTD samples of {name or f'vehicle {vehicle}'}",
+        "title": f"{what} of {name or f'vehicle {vehicle}'}",
         "platform": model or "underwater glider",
         "history": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} from the archive of a shore station",
         "comment": "positions under water are the vehicle's own reckoning, interpolated in time",

@@ -11,6 +11,7 @@ from stommel.archive import Archive, ArchiveError
 from stommel.errors import one_line
 from stommel.station.live.events import Happening, Samples
 from stommel.station.live.hub import Hub
+from stommel.station.periods import Periods
 from stommel.station.replay.course import Course
 from stommel.station.replay.moment import Moment
 from stommel.station.replay.reading import channel_keys, is_told, last_told, samples_between, texts_between, values_at
@@ -74,7 +75,8 @@ class Replay:
         self._silences = Silences(self.vehicle, self._channels, course.end)
         self._moment = Moment(settings, archive, course.at)
         self._summary = self._moment.summary(course.at, known)
-        hub.open(self.name, lambda: self._course.at, known)
+        self._periods = Periods()
+        hub.open(self.name, lambda: self._course.at, known, lambda key: self._periods.of_key(key))
         self._thread = Thread(target=self._run, name=self.name, daemon=True)
 
     def start(self) -> None:
@@ -122,7 +124,7 @@ class Replay:
             known = values_at(connection, self.vehicle, self._channels, at)
         moment = Moment(self._settings, self._archive, at)
         self._summary, self._moment = moment.summary(at, known), moment
-        self._last = last_told(known) or at
+        self._last, self._periods = last_told(known) or at, Periods()
         self._silences.jump()
         self._course.jump(at)
         self._hub.restart(self.name, known)
@@ -177,6 +179,7 @@ class Replay:
                 self._has_news |= self._silences.hear()
             if found:
                 self._moment.take(found)
+                self._periods.take_samples(found)
                 self._hub.publish(Samples(self.name, until, found))
             self._leap()
             self._has_news |= course.is_at_end

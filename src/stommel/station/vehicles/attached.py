@@ -9,7 +9,7 @@ from sqlalchemy import select
 
 from stommel.archive import Archive, Batch, DiveRow
 from stommel.archive.schema import dives
-from stommel.archive.times import GREATEST_TIME, microseconds
+from stommel.archive.times import GREATEST_TIME, microseconds, seconds
 from stommel.station.live.events import Happening, Samples, Summary
 from stommel.station.live.hub import Hub
 from stommel.station.settings import VehicleSettings
@@ -116,8 +116,8 @@ def last_dives(archive: Archive, vehicle: int, most: int = MOST_DIVES, until: fl
         rows = connection.execute(newest).mappings().all()
     return [
         DiveRow(
-            t_begin=row["t_begin_us"] / 1e6,
-            t_end=None if row["t_end_us"] is None else row["t_end_us"] / 1e6,
+            t_begin=seconds(row["t_begin_us"]),
+            t_end=None if row["t_end_us"] is None else seconds(row["t_end_us"]),
             **{name: row[name] for name in DiveRow._fields if name not in ("t_begin", "t_end")},
         )
         for row in reversed(rows)

@@ -1,5 +1,6 @@
 """Files of vehicles in the archive: transfers, and what lies whole ashore."""
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from sqlalchemy import select
@@ -12,6 +13,8 @@ GOING, PAUSED = "going", "paused"
 OPEN = (GOING, PAUSED)
 WHOLE, REFUSED, FAILED, CANCELLED = "whole", "refused", "failed", "cancelled"
 DOWNLOAD, UPLOAD = "download", "upload"
+_AT_ONCE, _MOST = 500, 10_000
+"""Paths that are looked up by one query, and rows of them."""
 
 
 class FileRow(NamedTuple):
@@ -24,6 +27,7 @@ class FileRow(NamedTuple):
     direction: str
     """download or upload."""
     user: str | None
+    """Who asked for it; None: it came by itself."""
     t: float
     """When it was asked for; of a whole file, since when it is."""
     state: str
@@ -81,6 +85,15 @@ class FileRows:
         """Files of a vehicle that lie whole ashore, the newest first."""
         chosen = files.c.vehicle_id == vehicle, files.c.state == WHOLE, files.c.direction == DOWNLOAD
         return self._rows(*chosen, limit=limit)
+
+    def last_downloads(self, vehicle: int, paths: Sequence[str]) -> dict[str, FileRow]:
+        """The last download of each of these files of a vehicle, by the path aboard; without those that had none."""
+        found: dict[str, FileRow] = {}
+        mine = files.c.vehicle_id == vehicle, files.c.direction == DOWNLOAD
+        for first in range(0, len(paths), _AT_ONCE):
+            some = files.c.path.in_(paths[first : first + _AT_ONCE])
+            found |= {row.path: row for row in reversed(self._rows(*mine, some, limit=_MOST))}
+        return found
 
     def _rows(self, *conditions: Any, limit: int) -> list[FileRow]:
         chosen = select(files).where(*conditions).order_by(files.c.id.desc()).limit(limit)

@@ -16,6 +16,7 @@ from stommel.station.vehicles.asking import ask
 from stommel.station.vehicles.file_follower import MOST_OPEN, FileFollower, told
 from stommel.station.vehicles.file_rows import DOWNLOAD, FAILED, GOING, UPLOAD, WHOLE, FileRow, FileRows
 from stommel.station.vehicles.line import VehicleLine
+from stommel.station.vehicles.log_fetching import NOTHING, LogFetching
 from stommel.station.vehicles.opening import LateError, MissingError, VehicleError, vehicle_folder
 
 LISTED_WITHIN = 20.0
@@ -53,6 +54,8 @@ class Files:
         left = self._rows.open_ones(line.vehicle)
         follower = self._followers[line.vehicle] = FileFollower(self._rows, self._folder, name, self._tell, left)
         line.followers.append(follower)
+        if line.settings.fetch != NOTHING:
+            line.followers.append(LogFetching(line.settings.fetch, self._rows, follower, self._tell))
 
     def listing(self, vehicle: int, folder: str) -> Sequence[Entry]:
         """What stands in a folder aboard; the vehicle is asked, and must be heard.
@@ -120,6 +123,10 @@ class Files:
         line, follower = self._of(id)
         ask(line, lambda end, _t: follower.cancel(end, id))
         return self._row(id)
+
+    def open(self, vehicle: int) -> int:
+        """How many transfers are not over, and do not rest."""
+        return sum(each.row.state == GOING for each in list(self._followers[vehicle].transfers.values()))
 
     def transfers(self, vehicle: int, limit: int) -> list[dict[str, Any]]:
         """The last transfers, the newest first, as the API tells them."""

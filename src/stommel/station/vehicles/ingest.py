@@ -10,8 +10,9 @@ from stommel.link.session import SILENCE
 from stommel.link.shore.heard import Heard
 from stommel.link.statistics import LinkStatistics
 from stommel.messages.mavlink import Fields
-from stommel.station.channels import Channel, channels_of, told_by
+from stommel.station.channels import told_by
 from stommel.station.clock import FIRST, LAST, VehicleClock
+from stommel.station.periods import Periods
 
 MOST_FRAMES = 50_000
 """That wait for an archive that does not take them; beyond, the line is not read."""
@@ -25,8 +26,6 @@ NEAR = 60.0
 """A time that a message tells is believed if it is so near to when it came [s]."""
 UNSET_FOR = 900.0
 """A simulated vehicle that has not told its clock for so long gets ours [s by its time since boot]."""
-MOST_PERIODS, _WEIGHT = 10.0, 0.1
-"""Longer intervals are silences, not intervals; weight of the last in the mean."""
 TICK = 2e-6
 """Between two times that the archive, which has whole microseconds, keeps apart [s]."""
 
@@ -53,8 +52,7 @@ class Ingest:
         self._boot_utc: float | None = None
         """UTC of the vehicle at its time 0 since boot."""
         self._last_time: dict[str, float] = {}
-        self._intervals: dict[str, tuple[float, float]] = {}
-        """When each message came last, and its mean interval [s]."""
+        self.periods = Periods()
         self._early: list[Early] = []
         self._early_bytes = 0
         self._is_early = False
@@ -169,23 +167,11 @@ class Ingest:
             text = self._heard.texts.popleft()
             self.texts.append((self._clock.of_link(text.t), text.severity, text.words))
 
-    def period_of(self, channel: Channel) -> float:
-        """Time between two values of a channel, as they come: a slow line brings them less often [s]."""
-        _, interval = self._intervals.get(channel.message, (0.0, 0.0))
-        return max(channel.period_s, interval)
-
-    def _count(self, name: str, at: float) -> None:
-        last, interval = self._intervals.get(name, (at, 0.0))
-        told = channels_of(name)
-        if told and 0.0 < at - last <= MOST_PERIODS * told[0].period_s:
-            interval += _WEIGHT * (at - last - interval)
-        self._intervals[name] = at, interval
-
     def _take_message(self, received: Received, at: float) -> None:
         self.came += 1
         self.heard_at = at
         name, values = received.name, received.values
-        self._count(name, at)
+        self.periods.take(name, at)
         if name == "CTD_SAMPLE":
             self._take_ctd(values, at)
         elif name == "DIVE_SUMMARY":

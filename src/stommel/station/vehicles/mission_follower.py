@@ -1,42 +1,36 @@
 """Brings missions to one vehicle, one at a time, and knows which one it holds."""
 
-import hashlib
 import time
 from collections import deque
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from stommel.link.endings import Ending, Progress
-from stommel.link.files.download import Download
-from stommel.link.files.folder_disk import FolderDisk
-from stommel.link.files.progress import State
 from stommel.link.missions.orders_client import OrdersOutcome
 from stommel.link.missions.port import HeldOrders
 from stommel.messages.mavlink import enumeration
 from stommel.station.vehicles.line import VehicleLine
+from stommel.station.vehicles.mission_fetch import MissionFetch
 from stommel.station.vehicles.mission_rows import (
     ABOARD,
+    CANCELLED,
+    EXPIRED,
     FAILED,
     INTERRUPTED,
     REFUSED,
     REPLACED,
     SENDING,
+    SUPERSEDED,
     WAITING,
     MissionRow,
     MissionRows,
 )
+from stommel.station.vehicles.mission_task import HAS_NOT, MAYBE, EndedTask, Task
 
 EVERY = 0.2
 """Between two looks [s]."""
-ASK_WITHIN = 600.0
-"""Time within which the vehicle says which orders it holds [s]."""
-MOST_WAITING = 10
-LOCAL = "active.orders"
-ABOARD_PATH = "missions/active.orders"
 STOPPED = "the station stopped while it was on its way; what is aboard is old or new, whole: look, and send it again"
-
-
+NEVER = "the station stopped before it was sent: send it again"
 AGAIN = 10.0
 """Between two tries of what was refused under water [s]."""
 UNDER_WATER = "send it at the surface"
@@ -52,22 +46,8 @@ def is_under_water(line: VehicleLine) -> bool:
     return said is not None and said.values["phase"] in _PHASES
 
 
-@dataclass
-class Task:
-    """One request to the vehicle."""
-
-    kind: str
-    """ask, upload or roll-back."""
-    user: str | None = None
-    row: MissionRow | None = None
-    """Of an upload."""
-    within: float = ASK_WITHIN
-    until: float | None = None
-    """When its time is over, by the clock of the link [s]; set when it is first looked at."""
-
-
 class MissionFollower:
-    """Everything of it happens in the line's thread, but for reading `held`, `words` and `underway`.
+    """Everything of it happens in the line's thread, but for reading `held`, `words`, `open` and `underway`.
 
     Parameters
     ----------
@@ -84,12 +64,17 @@ class MissionFollower:
     def __init__(
         self, rows: MissionRows, folder: Path, tell: Callable[[int, int | None], None], left: Sequence[MissionRow]
     ) -> None:
-        self._rows, self._folder, self._tell = rows, folder, tell
+        self._rows, self._tell = rows, tell
+        self._fetch = MissionFetch(folder)
         self._due = 0.0
         self._queue: deque[Task] = deque()
         self.current: Task | None = None
         self.underway: tuple[Task | None, Progress | None] = None, None
         """The request that is on its way, and of an upload how far it is [bytes], when the line looked last."""
+        self.open: tuple[Task, ...] = ()
+        """Requests of people that are not over, the one that is on its way first."""
+        self._ended: deque[EndedTask] = deque()
+        """Ended by a newer one, and not written yet."""
         self.held: HeldOrders | None = None
         """What the vehicle said that it holds; None before."""
         self.held_at = 0.0
@@ -101,18 +86,74 @@ class MissionFollower:
         """When what was refused under water is tried again [s]."""
         self._asked_for: object = ()
         """Number of the mission that the vehicle told when it was asked last; () before."""
-        self._fetch: tuple[Download, FolderDisk, bytes] | None = None
-        self._vain: bytes = b""
-        """Hash of orders that could not be fetched."""
 
     @property
     def waiting(self) -> int:
         """Requests that are not over."""
         return len(self._queue) + (self.current is not None)
 
-    def put(self, task: Task) -> None:
-        """Take a request."""
+    # what is asked for
+
+    def put(self, line: VehicleLine, task: Task, t: float) -> None:
+        """Take a request of a person in place of all before it, so that nobody flies what was corrected meanwhile."""
+        task.until = t + task.within
+        now = line.clock.now()
+        for other in self._of_people(line):
+            words = f"{task.title} of {task.user} came in its place; {self._truth(line, other)}"
+            self._ended.append(EndedTask(other, SUPERSEDED, words, task.user, now))
+            self._let_go(line, other)
         self._queue.append(task)
+        self._note_open()
+
+    def take_back(self, line: VehicleLine, wanted: Callable[[Task], bool], user: str) -> bool:
+        """Take a request back; whether there was one that is not over.
+
+        Raises
+        ------
+        ArchiveError
+            It cannot be written; the request goes on.
+        """
+        task = next((each for each in self._of_people(line) if wanted(each)), None)
+        if task is None:
+            return False
+        words = f"taken back by {user}; {self._truth(line, task)}"
+        self._write(line, EndedTask(task, CANCELLED, words, user, line.clock.now()))
+        self._let_go(line, task)
+        self._note_open()
+        return True
+
+    def _of_people(self, line: VehicleLine) -> list[Task]:
+        """Requests that can still be taken back; one that the vehicle has answered is over, also if not written yet."""
+        is_answered = line.end.orders.outcome is not None
+        going = [] if self.current is None or is_answered else [self.current]
+        return [each for each in (*going, *self._queue) if each.is_of_people]
+
+    def _truth(self, line: VehicleLine, task: Task) -> str:
+        """What is known of the vehicle when a request ends before its answer."""
+        return MAYBE if task is self.current and line.end.orders.is_told else HAS_NOT
+
+    def _let_go(self, line: VehicleLine, task: Task) -> None:
+        if task is not self.current:
+            self._queue.remove(task)
+            return
+        line.end.orders.drop()
+        self.current = None
+        if line.end.orders.is_told:
+            self._queue.appendleft(Task("ask"))
+
+    def _write(self, line: VehicleLine, ended: EndedTask) -> None:
+        """Write what became of a request, and tell it."""
+        row = ended.task.row
+        if row is None:
+            self.words = f"not rolled back: {ended.words}"
+        else:
+            self._rows.change(row.id, ended.state, ended.words, ended.t, ended.user)
+        self._tell(line.vehicle, None if row is None else row.id)
+
+    def _note_open(self) -> None:
+        self.open = tuple(each for each in (self.current, *self._queue) if each is not None and each.is_of_people)
+
+    # what goes on
 
     def look(self, line: VehicleLine, t: float) -> None:
         """Go on."""
@@ -121,17 +162,23 @@ class MissionFollower:
             return
         self._due = real + EVERY
         while self._left:
-            self._rows.change(self._left[-1].id, INTERRUPTED, STOPPED, line.clock.now())
+            words = NEVER if self._left[-1].state == WAITING else STOPPED
+            self._rows.change(self._left[-1].id, INTERRUPTED, words, line.clock.now())
             self._left.pop()
+        while self._ended:
+            self._write(line, self._ended[0])
+            self._ended.popleft()
         if self.current is not None and (outcome := line.end.orders.outcome) is not None:
             self._finish(line, self.current, outcome, t)
             self.current = None  # not before the archive has it
+        self._expire(line, t)
         if self.current is None and not self._queue and line.end.is_heard(t):
             self._ask_if_new(line)
         if self.current is None and self._queue and not self._waits(line, self._queue[0], t):
             self._begin(line, self._queue[0], t)
         self._look_at_fetch(line)
         is_upload = self.current is not None and self.current.row is not None
+        self._note_open()
         self.underway = self.current, line.end.orders.progress(t) if is_upload else None
 
     def _ask_if_new(self, line: VehicleLine) -> None:
@@ -142,16 +189,20 @@ class MissionFollower:
             self._asked_for = number
             self._queue.append(Task("ask"))
 
+    def _expire(self, line: VehicleLine, t: float) -> None:
+        """End what waits for longer than it may."""
+        for task in [each for each in self._queue if t >= each.until]:
+            words = f"its time was over; {HAS_NOT}"
+            self._write(line, EndedTask(task, EXPIRED, words, None, line.clock.now()))
+            self._queue.remove(task)
+
     def _waits(self, line: VehicleLine, task: Task, t: float) -> bool:
         """Whether a request rests until the vehicle, which takes no other mission under water, is at the surface."""
-        task.until = t + task.within if task.until is None else task.until
-        if task.kind == "ask" or t >= task.until:
-            return False
-        return t < self._again_at or is_under_water(line)
+        return task.is_of_people and (t < self._again_at or not line.end.is_heard(t) or is_under_water(line))
 
     def _begin(self, line: VehicleLine, task: Task, t: float) -> None:
         orders = line.end.orders
-        within = task.within if task.until is None else max(task.until - t, 1.0)
+        within = min(task.within, task.until - t)
         if task.kind == "roll-back" and (self.held is None or not self.held.previous):
             self._queue.popleft()
             self.words = "the vehicle holds no orders before the present ones"
@@ -178,7 +229,7 @@ class MissionFollower:
             else:
                 self.words, self._asked_for = words, ()
             return
-        if outcome.ending is Ending.REFUSED and words.endswith(UNDER_WATER) and t < (task.until or t):
+        if outcome.ending is Ending.REFUSED and words.endswith(UNDER_WATER) and t < task.until:
             if task.row is not None:
                 self._rows.change(task.row.id, WAITING, "the vehicle is under water; sent at the surface", now)
                 self._tell(line.vehicle, task.row.id)
@@ -193,8 +244,9 @@ class MissionFollower:
                     self.held = self.held._replace(name=task.row.name, sha256=new, previous=self.held.sha256)
             else:
                 state = REFUSED if outcome.ending is Ending.REFUSED else FAILED
-                self._rows.change(task.row.id, state, words, now)
-                self._tell(line.vehicle, task.row.id)
+                if state == FAILED and t >= task.until:
+                    state, words = EXPIRED, f"its time was over; {MAYBE if line.end.orders.is_told else HAS_NOT}"
+                self._write(line, EndedTask(task, state, words, None, now))
         elif outcome.ending is not Ending.WHOLE:
             self.words = f"not rolled back: {words}"
             self._tell(line.vehicle, None)
@@ -207,9 +259,8 @@ class MissionFollower:
             row = self._rows.of_hash(line.vehicle, held.sha256.hex())
             if row is not None:
                 self._be_aboard(line, row, now, "the vehicle says that it holds it")
-            elif self._fetch is None and held.sha256 != self._vain:
-                disk = FolderDisk(self._folder)
-                self._fetch = line.end.download(ABOARD_PATH, disk, LOCAL), disk, held.sha256
+            else:
+                self._fetch.want(line.end, held.sha256)
         self._tell(line.vehicle, None)
 
     def _be_aboard(self, line: VehicleLine, row: MissionRow, now: float, words: str) -> None:
@@ -220,28 +271,14 @@ class MissionFollower:
         self._tell(line.vehicle, row.id)
 
     def _look_at_fetch(self, line: VehicleLine) -> None:
-        if self._fetch is None or not self._fetch[0].state.is_over:
+        came = self._fetch.look()
+        if came is None:
             return
-        download, disk, sha256 = self._fetch
-        content = self._fetched(download)
-        if hashlib.sha256(content).digest() == sha256:
-            self._keep_fetched(line, content, sha256)
+        if came.reason:
+            self.words = f"its orders could not be fetched: {came.reason}"
         else:
-            self._vain = sha256
-            self.words = f"its orders could not be fetched: {download.reason or 'they have changed meanwhile'}"
-        self._fetch = None
-        line.end.drop(download)
-        for left in disk.sizes():
-            disk.remove(left)
-        disk.close()
-
-    def _fetched(self, download: Download) -> bytes:
-        """What was fetched; nothing if it did not come whole."""
-        name = (download.file.kept_as if download.file is not None else None) or LOCAL
-        try:
-            return (self._folder / name).read_bytes() if download.state is State.WHOLE else b""
-        except OSError:
-            return b""
+            self._keep_fetched(line, came.content, came.sha256)
+        self._fetch.done(line.end)
 
     def _keep_fetched(self, line: VehicleLine, content: bytes, sha256: bytes) -> None:
         """Write down orders that were found aboard."""

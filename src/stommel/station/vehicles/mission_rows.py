@@ -11,6 +11,8 @@ from stommel.archive.times import microseconds, seconds
 
 WAITING, SENDING, ABOARD, REPLACED = "waiting", "sending", "aboard", "replaced"
 REFUSED, FAILED, INTERRUPTED = "refused", "failed", "interrupted"
+CANCELLED, SUPERSEDED, EXPIRED = "cancelled", "superseded", "expired"
+"""Taken back; another one came in its place before the vehicle had it; its time was over."""
 OPEN = (WAITING, SENDING)
 
 
@@ -28,7 +30,7 @@ class MissionRow(NamedTuple):
     orders: str
     plan: Mapping[str, Any] | None
     state: str
-    """waiting, sending, aboard, replaced, refused, failed or interrupted."""
+    """waiting, sending, aboard, replaced, refused, failed, interrupted, cancelled, superseded or expired."""
 
 
 class MissionState(NamedTuple):

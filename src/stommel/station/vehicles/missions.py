@@ -13,13 +13,14 @@ from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask
 from stommel.station.vehicles.line import VehicleLine
-from stommel.station.vehicles.mission_follower import MOST_WAITING, MissionFollower, Task
+from stommel.station.vehicles.mission_follower import MissionFollower
 from stommel.station.vehicles.mission_rows import FAILED, OPEN, WAITING, MissionRow, MissionRows, MissionState
+from stommel.station.vehicles.mission_task import Task
 from stommel.station.vehicles.opening import MissingError, VehicleError, vehicle_folder
 
 
-class MissionError(StommelError):
-    """A mission cannot be given now."""
+class MissionError(VehicleError):
+    """A mission cannot be given, or taken back, now."""
 
 
 class Missions:
@@ -56,24 +57,22 @@ class Missions:
     ) -> MissionRow:
         """Give orders to a vehicle: written down, then sent; it takes them whole, or keeps those that it has.
 
+        They come in place of every request before them that is not over.
+
         Raises
         ------
         FileError
             The text is no orders file.
-        MissionError
-            Too many wait.
         VehicleError
             The line is busy; the mission is kept as failed.
         """
         _, header = parse_orders(orders, "orders")
         line, follower = self._lines[vehicle], self._followers[vehicle]
-        if follower.waiting >= MOST_WAITING:
-            raise MissionError(f"vehicle {vehicle}: {MOST_WAITING} requests about missions wait for it")
         sha256 = hashlib.sha256(orders.encode()).hexdigest()
         row = MissionRow(0, vehicle, line.clock.now(), user, header.mission, sha256, orders, plan, WAITING)
-        row = self._rows.add(row, "waits to be sent", preview)
+        row = self._rows.add(row, "waits until the vehicle is heard at the surface", preview)
         try:
-            ask(line, lambda _end, _t: follower.put(Task("upload", user, row, valid_for_s)))
+            ask(line, lambda _end, t: follower.put(line, Task("upload", user, row, valid_for_s), t))
         except VehicleError as error:
             self._rows.change(row.id, FAILED, f"not sent: {error}", line.clock.now())
             raise
@@ -93,19 +92,53 @@ class Missions:
             raise MissionError(f"vehicle {vehicle}: it is not known what it holds: {follower.words}")
         if not follower.held.previous:
             raise MissionError(f"vehicle {vehicle}: it holds no orders before the present ones")
-        ask(line, lambda _end, _t: follower.put(Task("roll-back", user, None, valid_for_s)))
+        ask(line, lambda _end, t: follower.put(line, Task("roll-back", user, None, valid_for_s), t))
+        self._tell(vehicle, None)
+
+    def take_back(self, vehicle: int, id: int, user: str) -> MissionRow:
+        """Take back a mission that the vehicle does not have yet.
+
+        Raises
+        ------
+        MissingError
+            There is no such mission.
+        MissionError
+            It is over: the vehicle has it, or it has ended another way.
+        """
+        self.find(vehicle, id)
+        line, follower = self._lines[vehicle], self._followers[vehicle]
+        wanted = lambda task: task.row is not None and task.row.id == id  # noqa: E731
+        is_done = ask(line, lambda _end, _t: follower.take_back(line, wanted, user))
+        row, history = self.find(vehicle, id)
+        if not is_done:
+            words = f"{row.state}: {history[-1].words}" if history else row.state
+            raise MissionError(f"mission {id} cannot be taken back any more; it is {words}")
+        return row
+
+    def take_back_roll_back(self, vehicle: int, user: str) -> None:
+        """Take back the request to hold the orders before again.
+
+        Raises
+        ------
+        MissionError
+            None waits.
+        """
+        line, follower = self._lines[vehicle], self._followers[vehicle]
+        if not ask(line, lambda _end, _t: follower.take_back(line, lambda task: task.kind == "roll-back", user)):
+            raise MissionError(f"vehicle {vehicle}: no return to the mission before waits")
+
+    def open(self, vehicle: int) -> int:
+        """How many requests of people are not over."""
+        return len(self._followers[vehicle].open)
 
     def aboard(self, vehicle: int) -> dict[str, Any]:
         """Which mission the vehicle holds, and what is on its way, as the API tells it; waits for no line."""
         follower = self._followers[vehicle]
         task, progress = follower.underway
+        upload = next((each for each in follower.open if each.row is not None), None)
+        rolls = next((each for each in follower.open if each.row is None), None)
         held, missing = follower.held, follower.words or None
         row = None if held is None or not held.sha256 else self._rows.of_hash(vehicle, held.sha256.hex())
-        upload = (
-            None
-            if task is None or task.row is None
-            else self.told(task.row) | {"progress": progress and progress._asdict()}
-        )
         if held is not None and not held.sha256:
             missing = "the vehicle holds no mission"
         elif held is not None and row is None:
@@ -116,7 +149,11 @@ class Missions:
             "sha256": None if held is None else held.sha256.hex(),
             "previous_sha256": None if held is None else held.previous.hex(),
             "t": None if held is None else follower.held_at,
-            "missing": missing, "waiting": follower.waiting, "upload": upload,
+            "missing": missing, "waiting": follower.waiting,
+            "upload": None if upload is None or upload.row is None else self.told(upload.row) | {
+                "progress": progress._asdict() if progress is not None and task is upload else None
+            },
+            "roll_back": None if rolls is None else {"user": rolls.user, "expires": self._expires(vehicle, rolls)},
             "mission": None if row is None else self.told(row), **flown,
         }  # fmt: skip
 
@@ -126,7 +163,7 @@ class Missions:
         flown = {"waypoints": [], "geofence": [], "depth_m": None} if row is None else _flown(row)
         return {
             "number": None, "name": None if row is None else row.name, "sha256": None if row is None else row.sha256,
-            "previous_sha256": None, "t": t, "waiting": 0, "upload": None,
+            "previous_sha256": None, "t": t, "waiting": 0, "upload": None, "roll_back": None,
             "missing": "it is not known which mission the vehicle held then" if row is None else None,
             "mission": None if row is None else self.told(row), **flown,
         }  # fmt: skip
@@ -155,7 +192,13 @@ class Missions:
         if history:
             found["state"] = history[-1].state
         del found["orders"], found["plan"]
-        return found
+        follower = self._followers.get(row.vehicle)
+        mine = [each for each in (() if follower is None else follower.open) if each.row and each.row.id == row.id]
+        is_open = mine and found["state"] in OPEN
+        return found | {"expires": self._expires(row.vehicle, mine[0]) if is_open else None}
+
+    def _expires(self, vehicle: int, task: Task) -> float:
+        return self._lines[vehicle].clock.of_link(task.until)
 
     def _tell(self, vehicle: int, id: int | None) -> None:
         row = None if id is None else self._rows.find(vehicle, id)

@@ -109,6 +109,10 @@ class Parameters:
 
         return ask(line, begin)
 
+    def open(self, vehicle: int) -> int:
+        """How many writings wait for the vehicle."""
+        return sum(write.state == WAITING for write in list(self._followers[vehicle].writes))
+
     def history(self, vehicle: int, component: int, name: str, limit: int) -> Sequence[ParameterRow]:
         """Values of a parameter, the newest first."""
         return self._rows.history(vehicle, component, name, limit)

@@ -7,15 +7,15 @@ from typing import Any, NamedTuple, Protocol
 from stommel.archive import DiveRow
 from stommel.archive.whereabouts.dive_ends import with_true_ends
 from stommel.compilation import plain
+from stommel.control.dive_cycle import PHASES, RECOVERY, SURFACE
 from stommel.geometry.earth import metres_per_radian
 from stommel.messages.mavlink import entry_words
 from stommel.station.vehicles.whereabouts import Told, position_of
 
 LAST_DIVES = 3
 """Whose mean duration tells when the vehicle surfaces next."""
-AT_SURFACE = frozenset({"surface", "recovery", "drift"})
-"""Words of phases in which the vehicle lies at the surface."""
-_ALARM_SEVERITY = "warning"
+AT_SURFACE = frozenset({PHASES[SURFACE], PHASES[RECOVERY]})
+"""Words of phases in which the vehicle lies at the surface; in drift it hangs in the water."""
 MOST_AHEAD = 3.2e7
 """A year: beyond, nobody waits [s]."""
 
@@ -68,7 +68,7 @@ class Known(NamedTuple):
 
 
 def summary_of(known: Known) -> dict[str, Any]:
-    """Return how a vehicle is.
+    """Return how a vehicle is; its alarms and who holds command are told by those who know them.
 
     next_surfacing
         The start of this dive, or of the next one, which follows after the time at the surface that the vehicle tells,
@@ -80,7 +80,8 @@ def summary_of(known: Known) -> dict[str, Any]:
     eta
         The distance to the waypoint by the rate at which it has become less since the last dive began.
 
-    A value that is not known is None, and `missing` has the reason by its name.
+    A value that is not known is None, and `missing` has the reason by its name. `told` has when the vehicle told those
+    that do not say it themselves.
     """
     latest, status = known.latest, known.status
     missing: dict[str, str] = {}
@@ -90,7 +91,7 @@ def summary_of(known: Known) -> dict[str, Any]:
         "last_contact": _last_contact(known), "link_reason": status.reason,
         "state": _words(latest, "state", "GLIDER_EXECUTIVE"), "phase": _words(latest, "phase", "GLIDER_PHASE"),
         "dive": _whole(latest, "dive"), "waypoint": _whole(latest, "waypoint"), "mission": _whole(latest, "mission"),
-        "alarms": _alarms(latest), "position": position_of(known.place), "battery": _battery(latest),
+        "position": position_of(known.place), "battery": _battery(latest),
         "waypoint_distance_m": latest["waypoint_distance_m"][1] if "waypoint_distance_m" in latest else None,
     }  # fmt: skip
     found["next_surfacing"] = _next_surfacing(known, found["phase"], missing)
@@ -100,6 +101,7 @@ def summary_of(known: Known) -> dict[str, Any]:
     found["missing"] = missing
     if found["position"] is None and known.place[1]:
         missing["position"] = known.place[1]
+    found["told"] = {name: latest[name][0] for name in _WITHOUT_TIME if name in latest}
     for name, message in _TOLD.items():
         if found[name] is None and name not in missing:
             missing[name] = f"the vehicle has not told its {message} yet"
@@ -112,6 +114,8 @@ _TOLD = {
     "state": "state", "phase": "phase", "dive": "dive", "waypoint": "waypoint", "mission": "mission",
     "position": "position", "battery": "battery", "waypoint_distance_m": "distance to the waypoint",
 }  # fmt: skip
+_WITHOUT_TIME = ("state", "phase", "dive", "waypoint", "mission", "waypoint_distance_m")
+"""What is told as it is; when it was told stands beside it."""
 
 
 def _last_contact(known: Known) -> float | None:
@@ -130,15 +134,6 @@ def _words(latest: Latest, key: str, enumeration: str) -> str | None:
     return None if number is None else entry_words(enumeration).get(number, f"{key} {number}")
 
 
-def _alarms(latest: Latest) -> list[dict[str, str]]:
-    bits = _whole(latest, "vehicle_alarms") or 0
-    return [
-        {"key": words.replace(" ", "_"), "words": words, "severity": _ALARM_SEVERITY}
-        for bit, words in entry_words("GLIDER_ALARM").items()
-        if bits & bit
-    ]
-
-
 def _battery(latest: Latest) -> dict[str, Any] | None:
     share, voltage = latest.get("battery_left_share"), latest.get("voltage_v")
     if share is None and voltage is None:
@@ -151,6 +146,10 @@ def _battery(latest: Latest) -> dict[str, Any] | None:
 
 def _duration(dive: DiveRow) -> float:
     return 0.0 if dive.t_end is None else dive.t_end - dive.t_begin
+
+
+def _end(dive: DiveRow) -> float:
+    return dive.t_begin if dive.t_end is None else dive.t_end
 
 
 def _next_surfacing(known: Known, phase: str | None, missing: dict[str, str]) -> dict[str, Any] | None:
@@ -176,7 +175,7 @@ def _next_surfacing(known: Known, phase: str | None, missing: dict[str, str]) ->
     return {"t": began + mean, "why": f"under way since it left the surface, and {minutes}"}
 
 
-def _speed_made_good(dives: Sequence[DiveRow], missing: dict[str, str]) -> dict[str, float] | None:
+def _speed_made_good(dives: Sequence[DiveRow], missing: dict[str, str]) -> dict[str, Any] | None:
     for dive in map(with_true_ends, reversed(dives)):
         places = (dive.latitude_begin, dive.longitude_begin, dive.latitude_end, dive.longitude_end)
         if _duration(dive) <= 0.0 or any(place is None for place in places):
@@ -186,7 +185,8 @@ def _speed_made_good(dives: Sequence[DiveRow], missing: dict[str, str]) -> dict[
         north = m_north * (latitude_end - latitude)
         east = m_east * math.remainder(longitude_end - longitude, math.tau)
         course = math.degrees(math.atan2(east, north)) % 360.0
-        return {"m_s": math.hypot(north, east) / _duration(dive), "course_deg": course}
+        speed = math.hypot(north, east) / _duration(dive)
+        return {"m_s": speed, "course_deg": course, "dive": dive.dive, "t": _end(dive)}
     missing["speed_made_good"] = "no dive has ended yet with a position at both ends"
     return None
 
@@ -194,7 +194,8 @@ def _speed_made_good(dives: Sequence[DiveRow], missing: dict[str, str]) -> dict[
 def _current(dives: Sequence[DiveRow], missing: dict[str, str]) -> dict[str, Any] | None:
     for dive in reversed(dives):
         if dive.current_north_m_s is not None and dive.current_east_m_s is not None:
-            return {"north_m_s": dive.current_north_m_s, "east_m_s": dive.current_east_m_s, "dive": dive.dive}
+            flow = {"north_m_s": dive.current_north_m_s, "east_m_s": dive.current_east_m_s}
+            return flow | {"dive": dive.dive, "t": _end(dive)}
     missing["current"] = "no dive has ended yet whose drift tells the current"
     return None
 

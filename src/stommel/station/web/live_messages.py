@@ -86,6 +86,8 @@ class ValuesMessage(_Said):
     """By the vehicle's clock [s since 1970]."""
     values: dict[str, tuple[float, float]]
     """By channel, its time and its value; what is no number is not told."""
+    periods: dict[str, float]
+    """Usual time between two values of a channel, at first and when it is another [s]."""
 
 
 class SamplesMessage(_Said):
@@ -98,6 +100,8 @@ class SamplesMessage(_Said):
     """By the vehicle's clock [s since 1970]."""
     samples: dict[str, tuple[list[float], list[float]]]
     """By channel, times and values."""
+    periods: dict[str, float]
+    """Usual time between two values of a channel, at first and when it is another [s]."""
 
 
 class SamplesGapMessage(_Said):

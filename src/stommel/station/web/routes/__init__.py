@@ -17,6 +17,7 @@ from stommel.station.web.routes import (
     replays,
     series,
     station,
+    telemetry,
     vehicles,
 )
 
@@ -26,6 +27,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     vehicles.router,
     commands.router,
     series.router,
+    telemetry.router,
     link.router,
     parameters.router,
     missions.router,

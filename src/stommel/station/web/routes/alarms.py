@@ -6,7 +6,7 @@ from fastapi import APIRouter, Path, Query
 from pydantic import BaseModel, ConfigDict, Field
 
 from stommel.station.alarms.history import AlarmError
-from stommel.station.alarms.limits import Limit, LimitValues
+from stommel.station.alarms.limits import KeptLimit, Limit, LimitValues
 from stommel.station.alarms.severity import Severity
 from stommel.station.channels import channel_named
 from stommel.station.web.access import Admin, Pilot, Viewer
@@ -92,9 +92,9 @@ def acknowledge_alarm(user: Pilot, alarm: AlarmNumber, body: Acknowledgement, st
 
 
 @router.get("/vehicles/{vehicle}/limits")
-def read_limits(_user: Viewer, line: Line, station: TheStation) -> list[Limit]:
-    """Limits of a vehicle's channels."""
-    return station.alarms.limits_of(line.vehicle)
+def read_limits(_user: Viewer, line: Line, station: TheStation) -> list[KeptLimit]:
+    """Limits of a vehicle's channels, and who set each."""
+    return station.alarms.kept_limits(line.vehicle)
 
 
 @router.put("/vehicles/{vehicle}/limits/{channel}")

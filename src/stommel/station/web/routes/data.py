@@ -17,6 +17,7 @@ from starlette.background import BackgroundTask
 
 from stommel.archive import DiveRow, schema
 from stommel.archive.times import GREATEST_TIME as LATEST
+from stommel.archive.times import microseconds, seconds
 from stommel.archive.whereabouts.dive_ends import with_true_ends
 from stommel.data.files import csv_of_pieces, write_netcdf_pieces
 from stommel.data.variables import BY_NAME
@@ -160,7 +161,7 @@ def read_dives(line: Line, station: TheStation, _user: Viewer, begin: Begin = 0.
     with station.archive.reading() as connection:
         rows = connection.execute(
             select(schema.dives)
-            .where((d.vehicle_id == line.vehicle) & (d.t_begin_us >= begin * 1e6) & (d.t_begin_us <= end * 1e6))
+            .where((d.vehicle_id == line.vehicle) & d.t_begin_us.between(microseconds(begin), microseconds(end)))
             .order_by(d.t_begin_us)
         ).mappings()
         return [_dive(dict(row)) for row in rows]
@@ -288,7 +289,7 @@ def _utf8(pieces: Iterator[xr.Dataset]) -> Iterator[bytes]:
 def _dive(row: dict[str, Any]) -> Dive:
     end = row["t_end_us"]
     rest = {name: row[name] for name in DiveRow._fields if name not in ("t_begin", "t_end")}
-    told = DiveRow(t_begin=row["t_begin_us"] * 1e-6, t_end=None if end is None else end * 1e-6, **rest)
+    told = DiveRow(t_begin=seconds(row["t_begin_us"]), t_end=None if end is None else seconds(end), **rest)
     return Dive(**with_true_ends(told)._asdict())
 
 

@@ -118,6 +118,17 @@ def list_frames(
     return [_told(each) for each in found]
 
 
+@router.get("/vehicles/{vehicle}/messages")
+def list_messages(_user: Viewer, line: Line, station: TheStation) -> list[str]:
+    """Return the names of all messages of which frames of a vehicle are kept, in their order."""
+    return sorted(_name(number) for number in station.archive.messages(line.vehicle))
+
+
+def _name(number: int) -> str:
+    kind = message_types().get(number)
+    return kind.name if kind else str(number)
+
+
 def _number(message: str) -> int:
     if message.isdecimal() and len(message) <= 8:
         return int(message)
@@ -138,7 +149,7 @@ def _told(stored: StoredFrame) -> Frame:
     return Frame(
         number=stored.number, t=row.t, received=stored.received,
         direction="out" if row.direction == "out" else "in", system=row.system, component=row.component,
-        message_id=row.message_id, message=kind.name if kind else str(row.message_id),
+        message_id=row.message_id, message=_name(row.message_id),
         sequence=row.sequence, signed=row.signed, bytes=row.frame.hex(), values=values,
     )  # fmt: skip
 

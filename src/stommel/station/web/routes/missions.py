@@ -19,7 +19,7 @@ from stommel.vehicle import builtin_names
 router = APIRouter(prefix="/api", tags=["missions"])
 
 MOST_ORDERS = 1_000_000
-LEAST_VALID, MOST_VALID, USUAL = 60.0, 604_800.0, 6 * 3600.0
+LEAST_VALID, MOST_VALID, USUAL = 60.0, 604_800.0, 86_400.0
 Validity = Annotated[float, Field(ge=LEAST_VALID, le=MOST_VALID, allow_inf_nan=False)]
 
 Past = Annotated[
@@ -27,7 +27,9 @@ Past = Annotated[
 ]  # fmt: skip
 
 
-MissionState = Literal["waiting", "sending", "aboard", "replaced", "refused", "failed", "interrupted"]
+MissionState = Literal[
+    "waiting", "sending", "aboard", "replaced", "refused", "failed", "interrupted", "cancelled", "superseded", "expired"
+]  # fmt: skip
 
 
 class Mission(BaseModel):
@@ -43,6 +45,8 @@ class Mission(BaseModel):
     state: MissionState
     words: str
     """Why, or what was last told of it."""
+    expires: float | None
+    """Until when it is tried; null where that is over."""
 
 
 class MissionStep(BaseModel):
@@ -86,9 +90,18 @@ class UploadProgress(BaseModel):
 
 
 class MissionOnItsWay(Mission):
-    """A mission that is being sent."""
+    """A mission that waits, or is being sent."""
 
     progress: UploadProgress | None
+    """Null while it waits."""
+
+
+class RollBackOnItsWay(BaseModel):
+    """The vehicle shall fly the mission before its present one again, and has not said yet that it does."""
+
+    user: str
+    expires: float
+    """Until when it is tried [s since 1970]."""
 
 
 class MissionAboard(BaseModel):
@@ -111,6 +124,7 @@ class MissionAboard(BaseModel):
     mission: Mission | None
     """Of these orders, where the station has them."""
     upload: MissionOnItsWay | None
+    roll_back: RollBackOnItsWay | None
     waiting: int
     """Requests about missions that are not over."""
 
@@ -171,11 +185,15 @@ def show_mission_aboard(_user: Viewer, line: Line, station: TheStation, at: Past
 
 @router.post("/vehicles/{vehicle}/mission", status_code=202)
 def upload_mission(user: Holder, line: Line, station: TheStation, new: NewMission) -> Mission:
-    """Give the vehicle a mission: kept here first, then sent; it takes it whole, or keeps the one that it has."""
+    """Give the vehicle a mission: kept here first, then sent; it takes it whole, or keeps the one that it has.
+
+    It comes in place of one that waits or is on its way, which is then not sent.
+    """
     plan, orders = new.plan, new.orders or ""
     if plan is not None:
         made = _resolved(station, line, plan)
-        plan, orders = made.model_dump(mode="json", exclude_none=True), station.previews.orders(made)
+        plan = made.model_dump(mode="json", exclude_none=True, exclude_unset=True)
+        orders = station.previews.orders(made)
     preview = new.preview if new.job is None else station.previews.job(new.job).get("result")
     row = station.missions.upload(
         line.vehicle, user.name, orders, plan=plan, preview=preview, valid_for_s=new.valid_for_s
@@ -187,6 +205,21 @@ def upload_mission(user: Holder, line: Line, station: TheStation, new: NewMissio
 def roll_back_mission(user: Holder, line: Line, station: TheStation, asked: RollBack | None = None) -> MissionAboard:
     """Let the vehicle fly the mission before its present one again."""
     station.missions.roll_back(line.vehicle, user.name, USUAL if asked is None else asked.valid_for_s)
+    return MissionAboard.model_validate(station.missions.aboard(line.vehicle))
+
+
+@router.delete("/vehicles/{vehicle}/missions/{id}")
+def take_back_mission(
+    user: Holder, line: Line, station: TheStation, id: Annotated[int, Path(ge=1, le=1 << 62)]
+) -> Mission:
+    """Take back a mission that the vehicle has not switched to; if it may have, the words say so, and it is asked."""
+    return Mission.model_validate(station.missions.told(station.missions.take_back(line.vehicle, id, user.name)))
+
+
+@router.delete("/vehicles/{vehicle}/mission/roll-back")
+def take_back_roll_back(user: Holder, line: Line, station: TheStation) -> MissionAboard:
+    """Take back that the vehicle shall fly the mission before its present one again."""
+    station.missions.take_back_roll_back(line.vehicle, user.name)
     return MissionAboard.model_validate(station.missions.aboard(line.vehicle))
 
 

@@ -1,4 +1,4 @@
-"""The log book: notes of people, and beside them commands, missions, alarms, and what the vehicle said."""
+"""The log book: notes of people, beside them what people did, alarms, and what the vehicle said."""
 
 from typing import Annotated, Literal
 
@@ -20,7 +20,7 @@ GREATEST_NUMBER = (1 << 53) - 1
 """Of a row; beyond it JSON's numbers are not exact."""
 _AHEAD = 60.0
 """A note may be of a time so far ahead, for two clocks never agree [s]."""
-Kind = Literal["alarm", "command", "mission", "note", "text"]
+Kind = Literal["alarm", "command", "hold", "limit", "mission", "note", "parameter", "text", "transfer"]
 Search = Annotated[str, Query(max_length=200, pattern=PRINTABLE, description="Words that must be in it.")]
 
 
@@ -53,6 +53,8 @@ class LogEntry(BaseModel):
 
     kind: Kind
     id: str
+    vehicle: int | None
+    """Null: of the station, by whose clock the time then is."""
     t: float
     user: str | None
     words: str
@@ -111,7 +113,10 @@ def read_log(
     ] = None,
     limit: Annotated[int, Query(ge=1, le=500)] = 100,
 ) -> LogPage:
-    """Notes, commands, missions, alarms and words of a vehicle in one list, the newest first."""
+    """All of a vehicle in one list, the newest first, with the notes and alarms of the station.
+
+    Notes, commands, missions, parameters that were set, transfers, who held command, limits, alarms, its own words.
+    """
     page = page_of(
         station.archive, line.vehicle, kinds=kinds or tuple(SOURCES), search=search, severity=severity, before=before,
         limit=limit,

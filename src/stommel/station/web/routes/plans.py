@@ -52,7 +52,7 @@ MOST_TRACK = 2000
 """Points of a track that are held against the geofence."""
 
 
-@router.get("/plan-templates")
+@router.get("/plan-templates", response_model_exclude_unset=True)
 def list_plan_templates(
     _user: Viewer, station: TheStation, vehicle: Annotated[int | None, Query(ge=1, le=250)] = None
 ) -> PlanTemplates:
@@ -90,7 +90,7 @@ def preview_plan(_user: Pilot, body: PlanBody, station: TheStation) -> StartedJo
     return StartedJob(job=station.previews.start(_plan(station, body)))
 
 
-@router.post("/plans/open")
+@router.post("/plans/open", response_model_exclude_unset=True)
 def open_orders(
     _user: Pilot, body: OrdersBody, station: TheStation, vehicle: Annotated[int, Query(ge=1, le=250)]
 ) -> OpenedPlan:
@@ -112,7 +112,7 @@ def cancel_job(_user: Pilot, job: JobName, station: TheStation) -> Job:
     return Job(**station.previews.job(job))
 
 
-@router.get("/vehicles/{vehicle}/mission/plan")
+@router.get("/vehicles/{vehicle}/mission/plan", response_model_exclude_unset=True)
 def show_flown_plan(_user: Viewer, line: Line, station: TheStation) -> FlownPlan:
     """Return the plan of the mission that the vehicle holds: as it was made, or as its orders tell."""
     held = held_mission(station.archive, line.vehicle)

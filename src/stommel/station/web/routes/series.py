@@ -10,8 +10,8 @@ from stommel.archive.series import FEWEST_POINTS, MOST_POINTS
 from stommel.archive.times import GREATEST_TIME
 from stommel.archive.whereabouts.span import TrackSpan, span_of
 from stommel.archive.whereabouts.track import read_track
-from stommel.station.channels import CHANNELS, channel_named
 from stommel.station.web.access import Viewer
+from stommel.station.web.asked import asked_channels
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation
 
@@ -19,7 +19,6 @@ router = APIRouter(prefix="/api", tags=["series"])
 
 HOUR = 3600.0
 FIRST, LAST = 0.0, GREATEST_TIME
-MOST_CHANNELS = 40
 Time = Annotated[float | None, Query(ge=FIRST, le=LAST, allow_inf_nan=False, description="Seconds since 1970.")]
 Points = Annotated[int, Query(ge=FEWEST_POINTS, le=MOST_POINTS, description="To be shown, at most.")]
 
@@ -85,10 +84,10 @@ def show_series(
     """
     begin, end = _range(line.clock.now(), begin, end)
     curves = {}
-    for key, turn in _turns(channels).items():
-        found = station.archive.series(line.vehicle, key, begin, end, points, method, turn=turn)
+    for channel in asked_channels(channels):
+        found = station.archive.series(line.vehicle, channel.key, begin, end, points, method, turn=channel.turn)
         value = [None if math.isnan(each) else each for each in found.value.tolist()]
-        curves[key] = Curve(t=found.t.tolist(), value=value, samples=found.samples, reduced=found.reduced)
+        curves[channel.key] = Curve(t=found.t.tolist(), value=value, samples=found.samples, reduced=found.reduced)
     return SeriesAnswer(begin=begin, end=end, channels=curves)
 
 
@@ -136,21 +135,3 @@ def _range(now: float, begin: float | None, end: float | None) -> tuple[float, f
     if begin > end:
         raise refusal(422, "the range ends before it begins", key="end", value=end, allowed=f"at least {begin:g}")
     return begin, end
-
-
-def _turns(text: str) -> dict[str, float | None]:
-    """Channels that are asked for, each with the turn after which its values begin anew."""
-    found = {}
-    keys = list(dict.fromkeys(part.strip() for part in text.split(",") if part.strip()))
-    if not 1 <= len(keys) <= MOST_CHANNELS:
-        raise refusal(
-            422, f"{len(keys)} channels are asked for", key="channels", value=text[:100],
-            allowed=f"1 to {MOST_CHANNELS}",
-        )  # fmt: skip
-    for key in keys:
-        channel = channel_named(key)
-        if channel is None:
-            known = ", ".join(channel.key for channel in CHANNELS)
-            raise refusal(422, f"there is no channel {key[:80]}", key="channels", value=key[:80], allowed=known)
-        found[key] = channel.turn
-    return found

@@ -10,6 +10,7 @@ from stommel.station.alarms.severity import Severity
 from stommel.station.channels import CHANNELS, channel_named, is_stale
 from stommel.station.shape import shape_of
 from stommel.station.states import state_machine
+from stommel.station.vehicles.waiting import Waiting
 from stommel.station.watching import file_of
 from stommel.station.web.access import Viewer
 from stommel.station.web.errors import refusal
@@ -19,11 +20,19 @@ router = APIRouter(prefix="/api", tags=["vehicles"])
 
 
 class VehicleAlarm(BaseModel):
-    """An alarm that is raised."""
+    """An alarm that is raised; times are those of the vehicle's clock [s since 1970]."""
 
+    id: int | None
+    """Null while the archive has not taken it."""
+    vehicle: int | None
+    """Null: of the station itself, whose clock then tells the times; each vehicle's summary has it."""
     key: str
     words: str
     severity: Severity
+    raised: float | None
+    """Null where the vehicle told of it in a past of which the station kept no alarm."""
+    acknowledged: float | None
+    acknowledged_by: str | None
 
 
 class VehiclePosition(BaseModel):
@@ -63,10 +72,13 @@ class Moment(BaseModel):
 
 
 class SpeedMadeGood(BaseModel):
-    """Of the last dive, over ground."""
+    """Of the last dive that has a position at both ends, over ground."""
 
     m_s: float
     course_deg: float
+    dive: int
+    t: float
+    """When that dive ended [s since 1970]."""
 
 
 class Current(BaseModel):
@@ -75,6 +87,8 @@ class Current(BaseModel):
     north_m_s: float
     east_m_s: float
     dive: int
+    t: float
+    """When that dive ended [s since 1970]."""
 
 
 class VehicleSummary(BaseModel):
@@ -83,7 +97,7 @@ class VehicleSummary(BaseModel):
     Times are of its clock, which goes `speed` times as fast as ours.
 
     - `next_surfacing`: start of this dive, or of the next one, and the mean duration of the last three dives.
-    - `speed_made_good`: between the positions at the begin and the end of the last dive, over ground.
+    - `speed_made_good`: between the positions at the begin and the end of the last dive that has both, over ground.
     - `current`: depth-averaged, of the last dive that has one, from its drift.
     - `eta`: distance to the waypoint by the rate at which it has become less since the last dive began.
     """
@@ -111,7 +125,10 @@ class VehicleSummary(BaseModel):
     waypoint_distance_m: float | None
     eta: Moment | None
     missing: dict[str, str]
+    told: dict[str, float]
+    """When the vehicle told those that do not say it themselves, by name [s since 1970]."""
     holder: str | None
+    waiting: Waiting
 
 
 class ChannelInfo(BaseModel):
@@ -252,7 +269,7 @@ def show_latest(_user: Viewer, line: Line, station: TheStation) -> Latest:
         channel = channel_named(key)
         if channel is None:
             continue
-        age, period = max(0.0, now - t), line.ingest.period_of(channel)
+        age, period = max(0.0, now - t), line.ingest.periods.of(channel)
         values[key] = LatestValue(t=t, value=value, age_s=age, period_s=period, stale=is_stale(age, period))
     return Latest(now=now, values=values)
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import pytest
@@ -104,7 +105,7 @@ def test_missions_and_geofences_of_several_vehicles_are_told_apart(
     fills = page.locator(".map .area").evaluate_all("all => all.map((one) => getComputedStyle(one).fill)")
     assert fills == [strokes[0], strokes[2]]
     for colour in fills:
-        becomes(page, lambda colour=colour: has_colour(page, colour), wanted=True)
+        becomes(page, partial(has_colour, page, colour), wanted=True)
 
 
 def answering(told: dict[str, Any]) -> Callable[[Any], None]:

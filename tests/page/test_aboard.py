@@ -83,7 +83,7 @@ def test_dives_stand_beside_those_of_the_preview_as_they_come(compare: Any, quay
 
 
 def test_the_fence_and_the_uncertainty_are_drawn_where_they_are(page: Any, quay: Quay, screenshot: Any) -> None:
-    """The circle has twice the standard deviation that the vehicle told."""
+    """The circle holds 95 % of a place whose error has the told standard deviation along each direction."""
     page.add_init_script(CIRCLES)
     page.add_init_script(DASHES)
     is_at(quay, 30.1, 120.1)
@@ -96,7 +96,7 @@ def test_the_fence_and_the_uncertainty_are_drawn_where_they_are(page: Any, quay:
         screenshot(f"fence-{view.replace('/', '-')}")
         for _ in range(3):
             page.get_by_role("button", name="Nearer").click()
-        becomes(page, lambda: has_circle(page, 2.0 * SIGMA), True)
+        becomes(page, lambda: has_circle(page, math.sqrt(-2.0 * math.log(0.05)) * SIGMA), True)
         screenshot(f"uncertainty-{view.replace('/', '-')}")
 
 

@@ -1136,6 +1136,7 @@ export interface components {
             alarms: components["schemas"]["VehicleAlarm"][];
             position: components["schemas"]["VehiclePosition"] | null;
             battery: components["schemas"]["Battery"] | null;
+            battery_lasts: components["schemas"]["Expected"] | null;
             next_surfacing: components["schemas"]["Expected"] | null;
             speed_made_good: components["schemas"]["SpeedMadeGood"] | null;
             current: components["schemas"]["Current"] | null;
@@ -1180,6 +1181,7 @@ export interface components {
             alarms: components["schemas"]["VehicleAlarm"][];
             position: components["schemas"]["VehiclePosition"] | null;
             battery: components["schemas"]["Battery"] | null;
+            battery_lasts: components["schemas"]["Expected"] | null;
             next_surfacing: components["schemas"]["Expected"] | null;
             speed_made_good: components["schemas"]["SpeedMadeGood"] | null;
             current: components["schemas"]["Current"] | null;

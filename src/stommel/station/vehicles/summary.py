@@ -169,7 +169,10 @@ def _battery_lasts(known: Known, missing: dict[str, str]) -> dict[str, Any] | No
         lasts = 1e3 * left / usage.watts if usage.watts > 0.0 else math.inf
         if lasts <= MOST_AHEAD:
             dives = "dive" if usage.dives == 1 else f"{usage.dives} dives"
-            return {"t": t + lasts, "why": f"at {usage.watts:.3g} W, the mean of the last {dives} and the time after each"}
+            return {
+                "t": t + lasts,
+                "why": f"at {usage.watts:.3g} W, the mean of the last {dives} and the time after each",
+            }
         missing[name] = f"at {usage.watts:.2g} W, as it was of late, it would last more than a year"
     return None
 

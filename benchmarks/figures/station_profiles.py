@@ -11,7 +11,7 @@ from figures.registry import Measurement, figure
 from figures.timing import seconds
 from stommel.archive import Archive, Batch, CtdRow
 from stommel.archive.cells import LEVELS
-from stommel.station.products.record import SampleRecords
+from stommel.products.record import SampleRecords
 
 DAY = 86400
 DAYS = 58

@@ -49,7 +49,7 @@ def test_an_alarm_comes_by_itself_sounds_and_is_acknowledged(page: Any, past: Pa
     assert (told["acknowledged_by"], told["note"], told["cleared"]) == ("local", "Sensor drifts.\nWatching it.", None)
 
     past.speaker.say("GLIDER_STATE", time_boot_ms=2, depth=20.0, alarms=0)
-    page.get_by_role("region", name=PAST).get_by_role("row", name="Depth greater than 200 m").wait_for()
+    page.get_by_role("region", name=PAST).get_by_role("row", name="Depth greater than 200 m").first.wait_for()
     screenshot("alarms-over")
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from stommel.archive import Archive, Batch
-from stommel.station.products.positions import positions
+from stommel.products.positions import positions
 from stommel.station.vehicles.whereabouts import Whereabouts, position_of
 from tests.station.client import Client
 from tests.station.speaker import speaker, until

@@ -104,7 +104,7 @@ def _write_telemetry(archive: "Archive", vehicle: int, begin: float, end: float,
     from stommel.archive.sample_pieces import kept_channels, sample_pieces
     from stommel.archive.telemetry_file import write_telemetry
     from stommel.data.files import write_netcdf_pieces
-    from stommel.station.products.telemetry import telemetry_pieces
+    from stommel.station.telemetry import telemetry_pieces
 
     keys = kept_channels(archive, vehicle)
     if output.suffix.lower() == ".nc":
@@ -114,8 +114,8 @@ def _write_telemetry(archive: "Archive", vehicle: int, begin: float, end: float,
 
 def _write_ctd(archive: "Archive", vehicle: int, begin: float, end: float, output: Path) -> int:
     from stommel.data.files import write_csv_pieces, write_netcdf_pieces
-    from stommel.station.products.record import SampleRecords
-    from stommel.station.products.samples import trajectory
+    from stommel.products.record import SampleRecords
+    from stommel.products.samples import trajectory
 
     records = SampleRecords(archive)
     count = records.count(vehicle, begin, end)

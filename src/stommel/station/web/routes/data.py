@@ -22,8 +22,8 @@ from stommel.archive.whereabouts.dive_ends import with_true_ends
 from stommel.data.files import csv_of_pieces, write_netcdf_pieces
 from stommel.data.variables import BY_NAME
 from stommel.data.water_masses import density_lines
-from stommel.station.products.record import SampleRecords
-from stommel.station.products.samples import trajectory
+from stommel.products.record import SampleRecords
+from stommel.products.samples import trajectory
 from stommel.station.web.access import Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation

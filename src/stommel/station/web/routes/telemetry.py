@@ -14,8 +14,8 @@ from stommel.archive.sample_pieces import SamplePiece, kept_channels, sample_pie
 from stommel.archive.telemetry_file import HEAD, lines_of
 from stommel.archive.times import GREATEST_TIME
 from stommel.data.files import write_netcdf_pieces
-from stommel.station.products.telemetry import telemetry_pieces
 from stommel.station.station import Station
+from stommel.station.telemetry import telemetry_pieces
 from stommel.station.web.access import Viewer
 from stommel.station.web.asked import asked_channels
 from stommel.station.web.found import Line, TheStation

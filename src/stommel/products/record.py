@@ -14,9 +14,9 @@ from stommel.data.derived import DERIVED
 from stommel.data.gridding import MOST_CELLS, joined, section
 from stommel.data.profiles import with_numbers
 from stommel.data.summaries import ProfileSummary
-from stommel.station.products.index import ProfileIndex
-from stommel.station.products.kept_profiles import Found
-from stommel.station.products.samples import samples_of
+from stommel.products.index import ProfileIndex
+from stommel.products.kept_profiles import Found
+from stommel.products.samples import samples_of
 
 MOST_COLUMNS = 800
 """Profiles of a section: more than a picture shows. Of more every second, third ... is taken."""

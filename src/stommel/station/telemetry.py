@@ -12,9 +12,9 @@ from stommel.archive.sample_pieces import PIECE, SamplePiece, sample_pieces
 from stommel.archive.times import seconds
 from stommel.data.files import TIME
 from stommel.data.variables import BY_NAME
+from stommel.products.positions import positions
+from stommel.products.samples import trajectory
 from stommel.station.channels import channel_named
-from stommel.station.products.positions import positions
-from stommel.station.products.samples import trajectory
 
 ROWS = 16_384
 """Times of a piece."""

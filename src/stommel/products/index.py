@@ -11,8 +11,8 @@ from stommel.archive.ctd_reading import CtdPiece, changes_since, ctd_pieces
 from stommel.archive.times import GREATEST_TIME
 from stommel.data.profiles import ways_of
 from stommel.data.summaries import ProfileSummary
-from stommel.station.products.kept_profiles import Found, keep, kept
-from stommel.station.products.positions import positions
+from stommel.products.kept_profiles import Found, keep, kept
+from stommel.products.positions import positions
 
 LONGEST_WAY = 500_000
 """Samples without a turning point, over which nothing is joined: a vehicle that lies still for days."""

@@ -10,8 +10,8 @@ import pytest
 import xarray as xr
 
 from stommel.archive import Archive, Batch
-from stommel.station.products import telemetry
-from stommel.station.products.telemetry import telemetry_pieces
+from stommel.station import telemetry
+from stommel.station.telemetry import telemetry_pieces
 from tests.station.client import Client
 from tests.station.stations import station
 

@@ -9,9 +9,9 @@ import pytest
 from stommel.archive import Archive, Batch, CtdRow
 from stommel.archive.ctd_reading import count_between
 from stommel.data.profiles import profiles_of
-from stommel.station.products import index
-from stommel.station.products.index import ProfileIndex
-from stommel.station.products.record import SampleRecords
+from stommel.products import index
+from stommel.products.index import ProfileIndex
+from stommel.products.record import SampleRecords
 
 BEGIN = 1_782_864_000.0
 
@@ -134,7 +134,7 @@ def test_a_section_of_very_many_profiles_shows_some(tmp_path: Path, monkeypatch:
         whole, one = records.section(1, "temperature", 0.0, 4e9, 1.0)
         assert one == 1
         assert whole.sizes["profile"] == len(records.profiles(1))
-        monkeypatch.setattr("stommel.station.products.record.MOST_COLUMNS", 5)
+        monkeypatch.setattr("stommel.products.record.MOST_COLUMNS", 5)
         some, stride = records.section(1, "temperature", 0.0, 4e9, 1.0)
         assert stride > 1
         assert some.sizes["profile"] <= 5
@@ -147,7 +147,7 @@ def test_a_section_of_very_many_profiles_shows_some(tmp_path: Path, monkeypatch:
 
 
 def test_pieces_hold_each_sample_once_with_its_profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from stommel.station.products import record
+    from stommel.products import record
 
     pieces = record.ctd_pieces
     monkeypatch.setattr(record, "ctd_pieces", lambda *args: pieces(*args, size=50))

@@ -13,7 +13,7 @@ from stommel.archive.ctd_reading import CtdPiece
 from stommel.data.derived import DERIVED, with_derived
 from stommel.data.files import TIME, as_trajectory
 from stommel.data.variables import BY_NAME
-from stommel.station.products.positions import positions
+from stommel.products.positions import positions
 
 
 def samples_of(archive: Archive, vehicle: int, piece: CtdPiece, wanted: Collection[str] = DERIVED) -> xr.Dataset:

@@ -1,1 +1,0 @@
-"""From the archive to data sets."""

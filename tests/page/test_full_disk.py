@@ -33,8 +33,8 @@ def test_a_full_disk_is_told_with_what_to_do_and_an_abort_goes_out(page: Any, qu
         screenshot("disk-full-link")
 
         page.goto(f"{quay.address}/#/fleet")
-        strip = page.get_by_role("article", name="vehicle 1")
-        strip.get_by_text(REASON).wait_for()
+        told_of = page.get_by_role("region", name="Alarms of the station")
+        told_of.get_by_text(REASON).wait_for()
         page.get_by_role("button", name="Alarms: 1 open").wait_for()
         screenshot("disk-full-fleet")
 
@@ -56,7 +56,7 @@ def test_a_full_disk_is_told_with_what_to_do_and_an_abort_goes_out(page: Any, qu
     page.locator("tr[data-command][data-state='done']", has_text="abort").first.wait_for()
     page.goto(f"{quay.address}/#/fleet")
     page.get_by_role("button", name="Alarms: none open").wait_for()
-    assert strip.get_by_text(REASON).count() == 0
+    assert told_of.get_by_text(REASON).count() == 0
     becomes(page, lambda: len(depths(quay)) - kept, SAID)
 
 

@@ -32,6 +32,7 @@ def test_a_note_can_be_of_a_time_that_has_passed(page: Any, past: Past) -> None:
     page.get_by_label("Time, UTC").fill("2026-01-02 03:04:05")
     page.get_by_role("textbox", name="Note").fill("Launched.")
     page.get_by_role("button", name="Write").click()
+    page.get_by_role("searchbox").fill("Launched.")  # it is older than all that happened since
     page.locator("li.note", has_text="Launched.").wait_for()
     assert httpx.get(f"{past.address}/api/notes?vehicle=1&search=Launched").json()[0]["t"] == 1767323045.0
     page.get_by_role("heading", name="2026-01-02").wait_for()

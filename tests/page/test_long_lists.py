@@ -60,7 +60,7 @@ def test_older_missions_and_the_steps_of_each_are_shown(page: Any, past: Past, s
     told = page.get_by_role("list", name="Steps").get_by_role("listitem")
     expect(told).to_have_text(
         [
-            "2026-07-01 00:00:00 UTC: waits for the link, ada",
+            "2026-07-01 00:00:00 UTC: waits for the vehicle, ada",
             "2026-07-01 00:01:00 UTC: the vehicle has switched to it; at the surface",
         ]
     )

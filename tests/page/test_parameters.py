@@ -49,7 +49,9 @@ def test_values_are_shown_and_written_in_the_units_that_people_speak(view: Any, 
     wanted = 9.25 if abs(row["value"] - 9.25e-6) > 1e-9 else 9.5
     field.fill(str(wanted))
     view.get_by_role("button", name="Write").click()
-    view.locator("[data-outcome='done']").wait_for(timeout=60_000)
+    expect(view.locator("[data-outcome='done']")).to_contain_text(
+        f"{wanted} ml/s", timeout=240_000
+    )  # not one of before
     assert parameter(station, "PUMP_FLOW")["value"] == pytest.approx(1e-6 * wanted, rel=1e-6)
     expect(view.locator("[data-parameter='PUMP_FLOW']")).to_contain_text(f"{wanted} ml/s")
 
@@ -79,7 +81,7 @@ def test_a_value_is_checked_before_it_is_sent_then_written_and_kept_with_who(vie
     wanted = 205.0 if row["value"] != 205.0 else 206.0
     field.fill(f"{wanted:.0f}")
     view.get_by_role("button", name="Write").click()
-    view.locator("[data-outcome='done']").wait_for(timeout=240_000)
+    expect(view.locator("[data-outcome='done']")).to_contain_text(f"{wanted:.0f} s", timeout=240_000)
     assert parameter(station, "SURFACE_TIME")["value"] == wanted
     view.get_by_text("by local").first.wait_for()
     expect(view.locator("[data-parameter='SURFACE_TIME']")).to_contain_text("changed:")

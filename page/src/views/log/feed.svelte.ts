@@ -15,6 +15,7 @@ export class Feed {
   entries = $state.raw<readonly LogEntry[]>();
   next = $state<string | null>(null);
   failure = $state<string>();
+  /** Whether older entries are asked for. */
   isBusy = $state(false);
   #kinds: readonly string[] = [];
   #search = '';
@@ -46,10 +47,12 @@ export class Feed {
 
   async older(): Promise<void> {
     if (this.next === null || this.isBusy) return;
+    this.isBusy = true;
     await this.#ask(this.next, (page) => {
       this.entries = [...(this.entries ?? []), ...page.entries];
       this.next = page.next;
     });
+    this.isBusy = false;
   }
 
   close(): void {
@@ -88,7 +91,6 @@ export class Feed {
     if (!this.#kinds.includes('text')) query.set('severity', String(NOTICE));
     if (this.#search) query.set('search', this.#search);
     if (before !== null) query.set('before', before);
-    this.isBusy = true;
     try {
       const page = await api.get<LogPage>(`/vehicles/${this.vehicle}/log?${query.toString()}`);
       if (number !== this.#number) return;
@@ -96,8 +98,6 @@ export class Feed {
       this.failure = undefined;
     } catch (error) {
       if (number === this.#number) this.failure = sentence(error);
-    } finally {
-      this.isBusy = false;
     }
   }
 }

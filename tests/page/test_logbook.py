@@ -81,6 +81,11 @@ def test_older_entries_come_page_by_page(page: Any, past: Past) -> None:
     expect(page.locator("li.note")).to_have_count(130)
     texts = page.locator("li.note .words").all_inner_texts()
     assert texts == [f"page {number}" for number in reversed(range(130))]
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    passes(page, 1500)
+    assert [url for url in asked if "/log?" in url] == [], "nothing has happened, nothing is asked for"
+    expect(page.locator("li.note")).to_have_count(130)
     expect(page.get_by_role("button", name="Older entries")).to_have_count(0)
 
 

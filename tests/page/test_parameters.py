@@ -41,6 +41,7 @@ def test_every_parameter_of_the_vehicle_is_listed_by_component(view: Any, statio
 
 def test_values_are_shown_and_written_in_the_units_that_people_speak(view: Any, station: str) -> None:
     """Oracle: cubic metres as the vehicle has them, by hand a millionth of the millilitres typed."""
+    view.locator("[data-parameter='PUMP_FLOW']").wait_for(timeout=240_000)  # each node tells its own, one after another
     row = parameter(station, "PUMP_FLOW")
     assert row["unit"] == "m3/s"
     view.locator("[data-parameter='PUMP_FLOW']").click()

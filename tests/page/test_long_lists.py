@@ -83,3 +83,30 @@ def test_frames_can_be_filtered_by_every_message_that_the_archive_has(page: Any,
     expect(select.get_by_role("option")).to_have_text(["all messages", *told])
     select.select_option("GLIDER_STATE")
     expect(page.get_by_role("region", name="Raw frames").locator("tbody tr").first).to_contain_text("GLIDER_STATE")
+
+
+@pytest.mark.parametrize(
+    "page", [{"viewport": {"width": width, "height": 768}} for width in (1024, 1440)], indirect=True
+)
+def test_a_long_history_of_alarms_lies_over_nothing(page: Any, past: Past, screenshot: Any) -> None:
+    """On a tablet and on a desk: what stands below and beside it can be reached. Oracle: boxes of the page."""
+    alarm = {
+        "vehicle": 1, "key": "limit:depth_m:high", "words": "Depth greater than 200 m", "severity": "critical",
+        "acknowledged": T, "acknowledged_by": "ada", "value": 230.0, "note": None,
+    }  # fmt: skip
+
+    rows = [alarm | {"id": 200 - k, "raised": T - 3600.0 * k, "cleared": T - 3600.0 * k + 60.0} for k in range(100)]
+
+    def history(route: Any) -> None:
+        asked = parse_qs(urlsplit(route.request.url).query)
+        route.fulfill(json=rows if asked.get("acknowledged") == ["true"] else [])
+
+    page.route("**/api/alarms?*", history)
+    page.goto(f"{past.address}/#/vehicle/1/alarms")
+    panel = page.get_by_role("region", name="History", exact=True)
+    expect(panel.locator("tbody tr")).to_have_count(100)
+    screenshot(f"alarms-long-{page.viewport_size['width']}")
+    whole, older = panel.bounding_box(), page.get_by_role("button", name="Older alarms").bounding_box()
+    assert older["y"] + older["height"] <= whole["y"] + whole["height"]
+    page.get_by_role("button", name="Add a limit").click()
+    page.get_by_label("Least value").wait_for()

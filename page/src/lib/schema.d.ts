@@ -1197,15 +1197,11 @@ export interface components {
             waiting: components["schemas"]["Waiting"];
         };
         Waiting: {
-            /** @default 0 */
             commands: number;
-            /** @default 0 */
             parameters: number;
-            /** @default 0 */
             missions: number;
-            /** @default 0 */
             transfers: number;
-            abort?: components["schemas"]["OpenAbort"] | null;
+            abort: components["schemas"]["OpenAbort"] | null;
         };
         Water: {
             /**

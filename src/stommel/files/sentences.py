@@ -36,7 +36,7 @@ _PATTERNS = {
     "^[A-Z0-9_]{1,16}$": "must be the name of a parameter, 1 to 16 capital letters, digits and _",
     "^[0-9a-f]{16}$": "must be the id of a command, 16 digits and letters a to f",
     "^[0-9a-f]+$": "must be digits and letters a to f, as the station has told it",
-    r"^(\d{1,17})-(alarm|command|mission|note)-([0-9a-f]{1,16})$": "must be the `next` of the page before",
+    r"^(\d{1,17})-(alarm|command|hold|limit|mission|note|parameter|text|transfer)-([0-9a-f]{1,16})$": "must be the `next` of the page before",
     "^[A-Za-z0-9.:_-]+$": "must be the name or address of a computer: letters, digits, and . : _ -",
 }
 """What each pattern of a text means: nobody is shown one."""

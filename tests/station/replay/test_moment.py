@@ -56,7 +56,8 @@ def test_it_is_what_was_known_then(client: Client) -> None:
     second = at(client, T0 + 2.0 * HOUR)
     assert (second["phase"], second["dive"]) == ("descent", 2)
     assert second["position"]["latitude"] == pytest.approx(30.0 + 7200.0 / 9000.0, abs=1e-3)
-    assert second["current"] == {"north_m_s": 0.1, "east_m_s": 0.0, "dive": 1}, "the second dive had not ended"
+    current = {"north_m_s": 0.1, "east_m_s": 0.0, "dive": 1, "t": T0 + HOUR + 60.0}
+    assert second["current"] == current, "the second dive had not ended"
     assert second["waypoint_distance_m"] == 9000.0 - 3600.0
     assert second["battery"]["share"] == 0.8
     assert second["heard"] is True

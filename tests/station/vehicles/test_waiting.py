@@ -31,7 +31,7 @@ def test_what_is_given_to_a_silent_vehicle_is_counted_until_its_last_word(tmp_pa
             until(lambda: waiting(client) == counts | {"transfers": 0})
             vehicle.under_water = False
             until(lambda: waiting(client) == NOTHING)
-            assert client.get(f"/vehicles/1/commands/{given['id']}")["state"] == "done"
+            until(lambda: client.get(f"/vehicles/1/commands/{given['id']}")["state"] == "done")
 
 
 def test_an_abort_is_told_from_the_station_to_the_vehicles_last_word(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from sqlalchemy import delete, insert, select
 from stommel.archive.archive import Archive
 from stommel.archive.schema import limits as table
 from stommel.archive.times import microseconds, seconds
-from stommel.station.alarms.limits import KeptLimit, Limit
+from stommel.station.alarms.limits import Limit, SetLimit
 
 
 class LimitTable:
@@ -17,14 +17,21 @@ class LimitTable:
     def __init__(self, archive: Archive) -> None:
         self._archive = archive
 
-    def limits_of(self, vehicle: int) -> list[KeptLimit]:
+    def limits_of(self, vehicle: int) -> list[Limit]:
         """Limits of a vehicle, by channel."""
+        return [kept.limit for kept in self.set_limits(vehicle)]
+
+    def set_limits(self, vehicle: int) -> list[SetLimit]:
+        """Limits of a vehicle, by channel, and who set each."""
         with self._archive.reading() as connection:
             rows = connection.execute(select(table).where(table.c.vehicle_id == vehicle).order_by(table.c.channel))
             return [
-                KeptLimit(
-                    channel=row.channel, low=row.low, high=row.high, hysteresis=row.hysteresis, delay_s=row.delay_s,
-                    severity=row.severity, changed=seconds(row.changed_us), changed_by=row.changed_by,
+                SetLimit(
+                    Limit(
+                        channel=row.channel, low=row.low, high=row.high, hysteresis=row.hysteresis,
+                        delay_s=row.delay_s, severity=row.severity,
+                    ),
+                    seconds(row.changed_us), row.changed_by,
                 )
                 for row in rows
                 if row.low is not None or row.high is not None

@@ -68,9 +68,10 @@ class Limit(LimitValues):
         )
 
 
-class KeptLimit(Limit):
+class SetLimit(NamedTuple):
     """A limit as the archive has it."""
 
+    limit: Limit
     changed: float
     """When somebody set it, by the station's clock [s since 1970]."""
     changed_by: str

@@ -18,7 +18,7 @@ from stommel.station.alarms.contact_watch import Contact
 from stommel.station.alarms.history import History
 from stommel.station.alarms.limit_table import LimitTable
 from stommel.station.alarms.limit_watch import Sample
-from stommel.station.alarms.limits import KeptLimit, Limit, Naming
+from stommel.station.alarms.limits import Limit, Naming, SetLimit
 from stommel.station.alarms.register import Register
 from stommel.station.alarms.severity import Severity
 from stommel.station.alarms.vehicle_watch import VehicleWatch
@@ -203,9 +203,9 @@ class StationAlarms:
         """Limits of a vehicle, by channel."""
         return self._watched[vehicle].watch.limits()
 
-    def kept_limits(self, vehicle: int) -> list[KeptLimit]:
+    def set_limits(self, vehicle: int) -> list[SetLimit]:
         """Limits of a vehicle, by channel, and who set each."""
-        return self._limits.limits_of(vehicle)
+        return self._limits.set_limits(vehicle)
 
     def put_limit(self, vehicle: int, limit: Limit, user: str) -> None:
         """Keep a limit in place of the channel's limit before, and watch it.

@@ -110,8 +110,12 @@ class Commands:
 
     def list(self, vehicle: int, limit: int = 100, before: float | None = None) -> Sequence[CommandRow]:
         """The last commands, the newest first."""
+        unwritten = (
+            [] if before is not None else self._unwritten(vehicle)
+        )  # first: what is written meanwhile is in both
         page = self._rows.page(vehicle, limit, before)
-        return page if before is not None else [*self._unwritten(vehicle), *page][:limit]
+        written = {row.id for row in page}
+        return [*(row for row in unwritten if row.id not in written), *page][:limit]
 
     def percent(self, row: CommandRow) -> int | None:
         """How far the execution of a command is; None where nobody knows."""
@@ -127,6 +131,7 @@ class Commands:
             There is no such command.
         """
         row = self._rows.find(vehicle, id) or next((each for each in self._unwritten(vehicle) if each.id == id), None)
+        row = row or self._rows.find(vehicle, id)  # it may have been written between the two looks
         if row is None:
             raise MissingError(f"vehicle {vehicle} has no command {id}")
         return row

@@ -2,9 +2,7 @@
 
 import time
 from collections.abc import Callable
-from typing import Any, Literal
-
-from pydantic import BaseModel
+from typing import Any, Literal, NamedTuple
 
 from stommel.link.commands.report import Report
 from stommel.link.commands.states import State
@@ -15,7 +13,7 @@ EVERY = 0.25
 AbortStep = Literal["waits", "sent", "aboard"]
 
 
-class OpenAbort(BaseModel):
+class OpenAbort(NamedTuple):
     """The newest abort of which the vehicle has not said the last word."""
 
     id: str
@@ -27,7 +25,7 @@ class OpenAbort(BaseModel):
     expires: float
 
 
-class Waiting(BaseModel):
+class Waiting(NamedTuple):
     """How many of each have had no last word; files that somebody lets rest are not counted."""
 
     commands: int = 0
@@ -37,8 +35,12 @@ class Waiting(BaseModel):
     transfers: int = 0
     abort: OpenAbort | None = None
 
+    def told(self) -> dict[str, Any]:
+        """As the summary tells it."""
+        return self._asdict() | {"abort": None if self.abort is None else self.abort._asdict()}
 
-NOTHING: dict[str, Any] = Waiting().model_dump()
+
+NOTHING: dict[str, Any] = Waiting().told()
 
 
 class WaitingThings:
@@ -70,7 +72,7 @@ class WaitingThings:
             commands=len(reports), parameters=self._parameters(), missions=self._missions(),
             transfers=self._transfers(),
             abort=_abort(max(aborts, key=lambda report: report.given), line) if aborts else None,
-        ).model_dump()  # fmt: skip
+        ).told()  # fmt: skip
 
 
 def _abort(report: Report, line: VehicleLine) -> OpenAbort:

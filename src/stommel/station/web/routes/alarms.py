@@ -6,7 +6,7 @@ from fastapi import APIRouter, Path, Query
 from pydantic import BaseModel, ConfigDict, Field
 
 from stommel.station.alarms.history import AlarmError
-from stommel.station.alarms.limits import KeptLimit, Limit, LimitValues
+from stommel.station.alarms.limits import Limit, LimitValues
 from stommel.station.alarms.severity import Severity
 from stommel.station.channels import channel_named
 from stommel.station.web.access import Admin, Pilot, Viewer
@@ -37,6 +37,15 @@ class AlarmRow(BaseModel):
     acknowledged_by: str | None
     value: float | None
     note: str | None
+
+
+class KeptLimit(Limit):
+    """A limit as the archive has it."""
+
+    changed: float
+    """When somebody set it, by the station's clock [s since 1970]."""
+    changed_by: str
+    """Who did."""
 
 
 class Acknowledgement(BaseModel):
@@ -94,7 +103,10 @@ def acknowledge_alarm(user: Pilot, alarm: AlarmNumber, body: Acknowledgement, st
 @router.get("/vehicles/{vehicle}/limits")
 def read_limits(_user: Viewer, line: Line, station: TheStation) -> list[KeptLimit]:
     """Limits of a vehicle's channels, and who set each."""
-    return station.alarms.kept_limits(line.vehicle)
+    return [
+        KeptLimit(**kept.limit.model_dump(), changed=kept.changed, changed_by=kept.changed_by)
+        for kept in station.alarms.set_limits(line.vehicle)
+    ]
 
 
 @router.put("/vehicles/{vehicle}/limits/{channel}")

@@ -110,9 +110,8 @@ class Commands:
 
     def list(self, vehicle: int, limit: int = 100, before: float | None = None) -> Sequence[CommandRow]:
         """The last commands, the newest first."""
-        unwritten = (
-            [] if before is not None else self._unwritten(vehicle)
-        )  # first: what is written meanwhile is in both
+        # those first: what is written meanwhile is in both
+        unwritten = [] if before is not None else self._unwritten(vehicle)
         page = self._rows.page(vehicle, limit, before)
         written = {row.id for row in page}
         return [*(row for row in unwritten if row.id not in written), *page][:limit]

@@ -13,15 +13,16 @@ import time
 import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 import stommel
-from tests.page.waiting import PATIENCE_S, Traffic
+from tests.page.waiting import PATIENCE_S, Traffic, until
 
 if TYPE_CHECKING:
     from tests.page.past import Past
+    from tests.page.played_station import PlayedStation
     from tests.page.quay import Quay
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -205,3 +206,15 @@ def manned(built: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[st
 
     with manned_station(tmp_path_factory.mktemp("manned")) as address:
         yield address
+
+
+@pytest.fixture
+def played(page: Any, fake_station: str) -> "PlayedStation":
+    """A station whose socket the test plays, and a vehicle view that has asked it for values."""
+    from tests.page.played_station import PlayedStation
+
+    station = PlayedStation(page)
+    page.goto(f"{fake_station}/#/vehicle/1")
+    page.wait_for_function("document.querySelectorAll('.tile').length > 20")
+    until(page, lambda: bool(station.ids("temperature_degc")))
+    return station

@@ -19,16 +19,6 @@ LONG_AGO = NOW - HOURS * 3600.0
 ATTITUDE = ("pitch_deg", "roll_deg", "heading_deg")
 
 
-@pytest.fixture
-def played(page: Any, fake_station: str) -> PlayedStation:
-    """A vehicle view whose socket the test plays."""
-    station = PlayedStation(page)
-    page.goto(f"{fake_station}/#/vehicle/1")
-    page.wait_for_function("document.querySelectorAll('.tile').length > 20")
-    until(page, lambda: bool(station.ids("temperature_degc")))
-    return station
-
-
 def as_of(page: Any, title: str) -> list[str]:
     """What the head of a panel says of the age of what it shows."""
     panel = page.locator("section.panel", has=page.get_by_role("heading", name=re.compile(f"^{title}")))

@@ -4,21 +4,9 @@ import json
 import re
 from typing import Any
 
-import pytest
-
 from tests.page import fake_glider as glider
 from tests.page.played_station import NOW, PlayedStation
 from tests.page.waiting import until
-
-
-@pytest.fixture
-def played(page: Any, fake_station: str) -> PlayedStation:
-    """A vehicle view whose socket the test plays."""
-    station = PlayedStation(page)
-    page.goto(f"{fake_station}/#/vehicle/1")
-    page.wait_for_function("document.querySelectorAll('.tile').length > 20")
-    until(page, lambda: bool(station.ids("temperature_degc")))
-    return station
 
 
 def tile(page: Any, label: str) -> Any:

@@ -106,7 +106,7 @@ def stored_dives(
         .where(func.coalesce(of.t_end_us, microseconds(GREATEST_TIME)) >= microseconds(begin))
         .order_by(of.t_begin_us, of.dive)
     )
-    return [_dive(row) for row in connection.execute(query)]
+    return [dive_of(row) for row in connection.execute(query)]
 
 
 def stored_ctd(
@@ -136,7 +136,8 @@ def _frame(row: Row[Any]) -> StoredFrame:
     return StoredFrame(number, seconds(received_us), FrameRow(t=seconds(t_us), **fields))
 
 
-def _dive(row: Row[Any]) -> DiveRow:
+def dive_of(row: Row[Any]) -> DiveRow:
+    """The dive of a row of `dives`."""
     fields = dict(row._mapping)
     del fields["vehicle_id"], fields["log_id"]
     begin_us, end_us = fields.pop("t_begin_us"), fields.pop("t_end_us")

@@ -19,8 +19,9 @@ Ballast = Annotated[float, between(-0.1, 0.1)]
 MassPosition = Annotated[float, between(-5, 5)]
 Angle = Annotated[float, between(0, 1.571)]
 Period = Annotated[float, between(1, 86400)]
-SampleInterval = Annotated[float, between(0.1, 3600)]
-"""What the vehicle can tell its CTD."""
+SAMPLES = (0.1, 3600.0)
+"""Between two samples of the CTD, as the message to its node can say it [s]."""
+SampleInterval = Annotated[float, between(*SAMPLES)]
 Latitude = Annotated[float, between(-1.571, 1.571)]
 Longitude = Annotated[float, between(-3.142, 6.284)]
 Cells = Annotated[tuple[tuple[Annotated[float, between(-1e3, 1e3)], ...], ...], Field(min_length=2, max_length=_MOST)]

@@ -8,14 +8,13 @@ from pydantic import Field, model_validator
 
 from stommel.control.orders import Orders
 from stommel.control.orders_file import OrdersHeader
+from stommel.control.orders_tables import SAMPLES
 from stommel.errors import Problem
 from stommel.files.fields import Table, ordered
 from stommel.files.ranges import Depth, Position, SignedVolume, between
 
 BEYOND_RATING = 1.1
 """How far beyond the rating of the hull a dive may be broken off: plans have it so for a dive to the rating itself."""
-SAMPLES = (0.1, 3600.0)
-"""Between two samples of the CTD, as the message to its node can say it [s]."""
 _SLACK = 1e-9
 """Share by which a limit may be passed: numbers are sums of others."""
 

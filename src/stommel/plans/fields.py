@@ -8,7 +8,8 @@ from annotated_types import Ge, Le
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from stommel.control.vehicle_limits import BEYOND_RATING, SAMPLES, VehicleLimits
+from stommel.control.orders_tables import SAMPLES
+from stommel.control.vehicle_limits import BEYOND_RATING, VehicleLimits
 from stommel.files.docstrings import attribute_docstrings
 from stommel.files.ranges import ZeroOr
 from stommel.files.table_keys import models_in

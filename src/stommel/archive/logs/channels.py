@@ -68,5 +68,6 @@ CHANNELS: Mapping[str, tuple[tuple[str, Value], ...]] = {
         ("pressure_dbar", _of("pressure")), ("temperature_degc", _of("temperature")),
         ("conductivity_s_m", _of("conductivity")),
     ),
+    "event": (),
 }  # fmt: skip
-"""By kind of record: key of the channel and its value."""
+"""By kind of record that says something here: key of the channel and its value."""

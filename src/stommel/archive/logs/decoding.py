@@ -74,7 +74,7 @@ class LogDecoder:
         """Take a record; one of a kind that says nothing here, or of no time, is only counted."""
         self._records += 1
         names = self._names.get(record.kind, ())
-        if (record.kind not in CHANNELS and record.kind != "event") or "t" not in names:
+        if record.kind not in CHANNELS or "t" not in names:
             return
         fields = dict(zip(names, record.values, strict=True))
         t = fields["t"]
@@ -82,7 +82,7 @@ class LogDecoder:
             return
         at = self.dated(t)
         self._begin, self._last = min(at, self._begin), max(at, self._last)  # of no number and a number, the number
-        for key, value in CHANNELS.get(record.kind, ()):
+        for key, value in CHANNELS[record.kind]:
             found = value(fields)
             if found is not None:
                 self._samples.append((key, at, found))

@@ -10,6 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from stommel.geometry.earth import MEAN_RADIUS
+
 FASTEST = 5.0
 """That a glider comes over ground, with the stream [m/s]."""
 CERTAIN = 4.0
@@ -24,8 +26,6 @@ LASTS, LEAST = 120.0, 3
 """A course is believed that goes on for so long [s] with so many positions, also where it begins with a leap."""
 MOST_COURSES = 8
 """That are followed at once."""
-EARTH = 6_371_008.8
-"""Mean radius [m]."""
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -100,7 +100,7 @@ def metres_apart(latitude: Array, longitude: Array, to_latitude: Array, to_longi
     phi, other = np.radians(latitude), np.radians(to_latitude)
     half = np.sin((other - phi) / 2.0) ** 2
     half = half + np.cos(phi) * np.cos(other) * np.sin(np.radians(to_longitude - longitude) / 2.0) ** 2
-    found: Array = 2.0 * EARTH * np.arcsin(np.sqrt(np.minimum(half, 1.0)))
+    found: Array = 2.0 * MEAN_RADIUS * np.arcsin(np.sqrt(np.minimum(half, 1.0)))
     return found
 
 

@@ -119,10 +119,7 @@ class StationAlarms:
         self._limits.add_new(vehicle, defaults, "vehicle file")
         open_keys = [alarm.key for alarm in self._register.open_of(vehicle)]
         watch = VehicleWatch(self._naming, self._settings, open_keys)
-        limits = [
-            Limit(**kept.model_dump(exclude={"changed", "changed_by"})) for kept in self._limits.limits_of(vehicle)
-        ]
-        begun = watch.begin(limits, self._archive.latest(vehicle))
+        begun = watch.begin(self._limits.limits_of(vehicle), self._archive.latest(vehicle))
         self._watched[vehicle] = _Watched(watch, now, contact)
         self._register.put(vehicle, begun)
 

@@ -8,8 +8,9 @@ from typing import Any
 from sqlalchemy import select
 
 from stommel.archive import Archive, Batch, DiveRow
+from stommel.archive.readers import dive_of
 from stommel.archive.schema import dives
-from stommel.archive.times import GREATEST_TIME, microseconds, seconds
+from stommel.archive.times import GREATEST_TIME, microseconds
 from stommel.station.live.events import Happening, Samples, Summary
 from stommel.station.live.hub import Hub
 from stommel.station.settings import VehicleSettings
@@ -113,12 +114,4 @@ def last_dives(archive: Archive, vehicle: int, most: int = MOST_DIVES, until: fl
         mine = mine.where(dives.c.t_end_us <= microseconds(until))
     newest = mine.order_by(dives.c.t_begin_us.desc()).limit(most)
     with archive.reading() as connection:
-        rows = connection.execute(newest).mappings().all()
-    return [
-        DiveRow(
-            t_begin=seconds(row["t_begin_us"]),
-            t_end=None if row["t_end_us"] is None else seconds(row["t_end_us"]),
-            **{name: row[name] for name in DiveRow._fields if name not in ("t_begin", "t_end")},
-        )
-        for row in reversed(rows)
-    ]
+        return [dive_of(row) for row in reversed(connection.execute(newest).all())]

@@ -2,7 +2,8 @@
 
 import time
 from collections.abc import Callable
-from typing import Any, Literal, NamedTuple
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
 
 from stommel.link.commands.report import Report
 from stommel.link.commands.states import State
@@ -13,7 +14,8 @@ EVERY = 0.25
 AbortStep = Literal["waits", "sent", "aboard"]
 
 
-class OpenAbort(NamedTuple):
+@dataclass(frozen=True)
+class OpenAbort:
     """The newest abort of which the vehicle has not said the last word."""
 
     id: str
@@ -25,22 +27,19 @@ class OpenAbort(NamedTuple):
     expires: float
 
 
-class Waiting(NamedTuple):
+@dataclass(frozen=True)
+class Waiting:
     """How many of each have had no last word; files that somebody lets rest are not counted."""
 
-    commands: int = 0
+    commands: int
     """With aborts."""
-    parameters: int = 0
-    missions: int = 0
-    transfers: int = 0
-    abort: OpenAbort | None = None
-
-    def told(self) -> dict[str, Any]:
-        """As the summary tells it."""
-        return self._asdict() | {"abort": None if self.abort is None else self.abort._asdict()}
+    parameters: int
+    missions: int
+    transfers: int
+    abort: OpenAbort | None
 
 
-NOTHING: dict[str, Any] = Waiting().told()
+NOTHING: dict[str, Any] = asdict(Waiting(0, 0, 0, 0, None))
 
 
 class WaitingThings:
@@ -68,11 +67,8 @@ class WaitingThings:
         self._due = real + EVERY
         reports = [report for report in line.end.commands.reports(t) if not report.is_last]
         aborts = [report for report in reports if report.name == "abort"]
-        self.told = Waiting(
-            commands=len(reports), parameters=self._parameters(), missions=self._missions(),
-            transfers=self._transfers(),
-            abort=_abort(max(aborts, key=lambda report: report.given), line) if aborts else None,
-        ).told()  # fmt: skip
+        abort = _abort(max(aborts, key=lambda report: report.given), line) if aborts else None
+        self.told = asdict(Waiting(len(reports), self._parameters(), self._missions(), self._transfers(), abort))
 
 
 def _abort(report: Report, line: VehicleLine) -> OpenAbort:

@@ -15,9 +15,10 @@ from pydantic import BaseModel
 from sqlalchemy import select
 from starlette.background import BackgroundTask
 
-from stommel.archive import DiveRow, schema
+from stommel.archive import schema
+from stommel.archive.readers import dive_of
 from stommel.archive.times import GREATEST_TIME as LATEST
-from stommel.archive.times import microseconds, seconds
+from stommel.archive.times import microseconds
 from stommel.archive.whereabouts.dive_ends import with_true_ends
 from stommel.data.files import csv_of_pieces, write_netcdf_pieces
 from stommel.data.variables import BY_NAME
@@ -163,8 +164,8 @@ def read_dives(line: Line, station: TheStation, _user: Viewer, begin: Begin = 0.
             select(schema.dives)
             .where((d.vehicle_id == line.vehicle) & d.t_begin_us.between(microseconds(begin), microseconds(end)))
             .order_by(d.t_begin_us)
-        ).mappings()
-        return [_dive(dict(row)) for row in rows]
+        )
+        return [Dive(**with_true_ends(dive_of(row))._asdict()) for row in rows]
 
 
 @router.get("/vehicles/{vehicle}/profiles", dependencies=[InOrder])
@@ -284,13 +285,6 @@ def _attachment(vehicle: int, ending: str) -> dict[str, str]:
 def _utf8(pieces: Iterator[xr.Dataset]) -> Iterator[bytes]:
     for text in csv_of_pieces(pieces):
         yield text.encode()
-
-
-def _dive(row: dict[str, Any]) -> Dive:
-    end = row["t_end_us"]
-    rest = {name: row[name] for name in DiveRow._fields if name not in ("t_begin", "t_end")}
-    told = DiveRow(t_begin=seconds(row["t_begin_us"]), t_end=None if end is None else seconds(end), **rest)
-    return Dive(**with_true_ends(told)._asdict())
 
 
 def _margin(values: NDArray[np.float64]) -> tuple[float, float]:

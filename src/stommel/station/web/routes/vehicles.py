@@ -10,11 +10,11 @@ from stommel.station.alarms.severity import Severity
 from stommel.station.channels import CHANNELS, channel_named, is_stale
 from stommel.station.shape import shape_of
 from stommel.station.states import state_machine
+from stommel.station.vehicles.waiting import Waiting
 from stommel.station.watching import file_of
 from stommel.station.web.access import Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation
-from stommel.station.web.waiting import Waiting
 
 router = APIRouter(prefix="/api", tags=["vehicles"])
 

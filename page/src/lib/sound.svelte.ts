@@ -1,10 +1,11 @@
 // The sound of alarms: a few tones when one is raised, again while a critical one waits for somebody.
 
 import { untrack } from 'svelte';
+import { keptChoice } from './choice';
 import { type OpenAlarm, openAlarms } from './open_alarms';
 import { identityOf } from './severity';
 
-const KEY = 'stommel-sound';
+const kept = keptChoice('stommel-sound');
 const AGAIN_MS = 20_000;
 
 /** Tones of a severity: frequency in Hz, one after another. */
@@ -14,16 +15,8 @@ const TONES: Record<string, readonly number[]> = {
   notice: [587],
 };
 
-function stored(): boolean {
-  try {
-    return localStorage.getItem(KEY) === 'on';
-  } catch {
-    return false;
-  }
-}
-
 class Sound {
-  isOn = $state(stored());
+  isOn = $state(kept.read() === 'on');
   /** The browser makes no sound before somebody has touched the page. */
   isWaiting = $state(false);
   /** How often it has sounded since the page was opened. */
@@ -59,11 +52,7 @@ class Sound {
 
   switch(isOn: boolean): void {
     this.isOn = isOn;
-    try {
-      localStorage.setItem(KEY, isOn ? 'on' : 'off');
-    } catch {
-      // Storage is switched off: the choice lasts as long as the page.
-    }
+    kept.keep(isOn ? 'on' : 'off');
     if (isOn) this.play('notice');
   }
 

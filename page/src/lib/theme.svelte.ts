@@ -1,15 +1,13 @@
 // Light, dark, or what the system says. theme.js has set it before the first paint.
 
+import { keptChoice } from './choice';
+
 export type Theme = 'system' | 'light' | 'dark';
-const KEY = 'stommel-theme';
+const kept = keptChoice('stommel-theme');
 
 function stored(): Theme {
-  try {
-    const value = localStorage.getItem(KEY);
-    return value === 'light' || value === 'dark' ? value : 'system';
-  } catch {
-    return 'system';
-  }
+  const value = kept.read();
+  return value === 'light' || value === 'dark' ? value : 'system';
 }
 
 class ThemeChoice {
@@ -30,12 +28,7 @@ class ThemeChoice {
     this.chosen = theme;
     if (theme === 'system') delete document.documentElement.dataset.theme;
     else document.documentElement.dataset.theme = theme;
-    try {
-      if (theme === 'system') localStorage.removeItem(KEY);
-      else localStorage.setItem(KEY, theme);
-    } catch {
-      // Storage is switched off: the choice lasts as long as the page.
-    }
+    kept.keep(theme === 'system' ? null : theme);
     this.changes += 1;
   }
 

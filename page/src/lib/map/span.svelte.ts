@@ -1,5 +1,6 @@
 // Over which stretch of time maps show the track; a choice of whoever looks, for all maps.
 
+import { keptChoice } from '../choice';
 import { dateTime, duration } from '../units';
 
 export type TrackSpan = 'day' | 'mission' | 'all';
@@ -10,28 +11,15 @@ export const SPANS: readonly { readonly id: TrackSpan; readonly words: string; r
   { id: 'all', words: 'All', title: 'Everything that is known of it' },
 ];
 
-const KEY = 'stommel-track-span';
+const kept = keptChoice('stommel-track-span');
 const STALE_S = 3600;
 
-function stored(): TrackSpan {
-  try {
-    const found = localStorage.getItem(KEY);
-    return SPANS.find((one) => one.id === found)?.id ?? 'mission';
-  } catch {
-    return 'mission';
-  }
-}
-
 class SpanChoice {
-  chosen = $state<TrackSpan>(stored());
+  chosen = $state<TrackSpan>(SPANS.find((one) => one.id === kept.read())?.id ?? 'mission');
 
   choose(span: TrackSpan): void {
     this.chosen = span;
-    try {
-      localStorage.setItem(KEY, span);
-    } catch {
-      // Storage is switched off: the choice lasts as long as the page.
-    }
+    kept.keep(span);
   }
 }
 

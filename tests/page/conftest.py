@@ -1,6 +1,8 @@
 """The page in Chromium: a station to look at, a browser, pictures under build/screenshots.
 
 `STOMMEL_PAGE_SLOW=8` makes the browser's processor eight times slower: tests that do not wait for what they ask fail.
+`STOMMEL_PAGE_JITTER=400` holds each answer back for up to that many milliseconds, so that they come in any order: what a
+view shows for a moment only, before or after something else, is met then.
 """
 
 import json
@@ -37,6 +39,20 @@ AXE = ROOT / "page" / "node_modules" / "axe-core" / "axe.min.js"
 SPEED = "60" if "STOMMEL_PAGE_SOAK" in os.environ else "20"
 """Of the simulated glider, times real time."""
 SLOW = float(os.environ.get("STOMMEL_PAGE_SLOW", "1"))
+JITTER_MS = float(os.environ.get("STOMMEL_PAGE_JITTER", "0"))
+HELD_BACK = """(most => {
+    const ask = window.fetch;
+    window.heldBack = 0;
+    window.fetch = async (...asked) => {
+        window.heldBack += 1;
+        try {
+            await new Promise(done => setTimeout(done, most * Math.random()));
+            return await ask(...asked);
+        } finally {
+            window.heldBack -= 1;
+        }
+    };
+})"""
 Screenshot = Callable[[str], Path]
 
 
@@ -134,6 +150,8 @@ def page(browser, request: pytest.FixtureRequest):
     options = getattr(request, "param", {})
     context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce", **options})
     context.add_init_script("localStorage.setItem('stommel-tour', 'done')")
+    if JITTER_MS > 0.0:
+        context.add_init_script(f"{HELD_BACK}({JITTER_MS})")
     tab = context.new_page()
     tab.set_default_timeout(1e3 * PATIENCE_S)
     Traffic(tab)

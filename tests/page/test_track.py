@@ -117,15 +117,23 @@ def test_maps_say_over_which_time_the_track_goes(
 REEF = {"type": "Polygon", "coordinates": [[[122.9, 30.0], [123.1, 30.0], [123.1, 30.7], [122.9, 30.7], [122.9, 30.0]]]}
 
 
+@pytest.fixture
+def reef(silent: Silent) -> Iterator[None]:
+    """A chart layer of that name, for one test."""
+    made = httpx.post(f"{silent.address}/api/layers", json={"name": "Reef", "geojson": REEF}).json()
+    yield
+    httpx.delete(f"{silent.address}/api/layers/{made['id']}")
+
+
+@pytest.mark.usefixtures("reef")
 @pytest.mark.parametrize("view", ["vehicle/1/plan", "vehicle/1/data"])
 def test_charts_and_currents_are_where_waypoints_are_drawn(
     page: Any, silent: Silent, view: str, screenshot: Callable[[str], Path]
 ) -> None:
     """Oracle: what the canvas holds with the chart and without it; the legend of currents stands where some are."""
-    made = httpx.post(f"{silent.address}/api/layers", json={"name": "Reef", "geojson": REEF}).json()
     page.goto(f"{silent.address}/#/{view}")
     chart = page.get_by_role("button", name="Reef", exact=True)
-    page.locator(".map .flow").wait_for()
+    page.locator(".map .flow", has_text="current").wait_for()
     chart.wait_for()
     at_rest(page)
     screenshot(f"charts-{view.rpartition('/')[2]}")
@@ -134,7 +142,6 @@ def test_charts_and_currents_are_where_waypoints_are_drawn(
     until(page, lambda: page.evaluate(CANVAS) != drawn)
     chart.click()
     until(page, lambda: page.evaluate(CANVAS) == drawn)
-    httpx.delete(f"{silent.address}/api/layers/{made['id']}")
 
 
 def test_the_track_and_currents_are_read_off_by_pointer_and_keys(

@@ -69,7 +69,7 @@ def at_rest(page: Any) -> None:
     while True:
         before = traffic.asked
         passes(page, QUIET_MS)
-        if before == traffic.asked and not traffic.under_way:
+        if before == traffic.asked and not traffic.under_way and not page.evaluate("window.heldBack ?? 0"):
             return
         assert time.monotonic() < ends, f"still under way: {[request.url for request in traffic.under_way]}"
 

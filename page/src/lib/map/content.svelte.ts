@@ -6,6 +6,7 @@ import { clock } from '../clock.svelte';
 import { live } from '../live.svelte';
 import type { DiveRow, LayerRow, MissionAboard, Position, Track, VehicleKey } from '../types';
 import { course, quantity, velocity } from '../units';
+import { placeKey, routeOnce } from './route';
 import { spanWords, trackSpan } from './span.svelte';
 import type { MapArrow, MapLayer, MapWaypoint, Place, TrackPlace } from './types';
 
@@ -22,7 +23,7 @@ export class MapContent {
   /** Positions at which the vehicle cannot have been, which the station has left out. */
   leftOut = $state(0);
   waypoints = $state.raw<MapWaypoint[]>([]);
-  /** From waypoint to waypoint, once around. */
+  /** From waypoint to waypoint, each leg once. */
   route = $state.raw<Place[]>([]);
   fence = $state.raw<Place[]>([]);
   arrows = $state.raw<MapArrow[]>([]);
@@ -107,8 +108,7 @@ export class MapContent {
     const mission = await api.get<MissionAboard>(`/vehicles/${this.vehicle}/mission`, query).catch(() => undefined);
     if (!mission || load !== this.loads) return;
     this.waypoints = together(mission.waypoints);
-    const repeats = this.waypoints.some((one) => (one.numbers?.length ?? 0) > 1);
-    this.route = repeats && this.waypoints[0] ? [...this.waypoints, this.waypoints[0]] : this.waypoints;
+    this.route = routeOnce(mission.waypoints);
     this.fence = mission.geofence;
   }
 
@@ -125,7 +125,7 @@ export class MapContent {
 export function together(waypoints: readonly MapWaypoint[]): MapWaypoint[] {
   const found = new Map<string, MapWaypoint & { numbers: number[] }>();
   waypoints.forEach((waypoint, index) => {
-    const key = `${waypoint.latitude.toFixed(5)} ${waypoint.longitude.toFixed(5)}`;
+    const key = placeKey(waypoint);
     const known = found.get(key);
     if (known) known.numbers.push(index + 1);
     else found.set(key, { ...waypoint, label: String(index + 1), numbers: [index + 1] });

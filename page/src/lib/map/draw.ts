@@ -212,12 +212,29 @@ function drawTrack(context: Context, project: GeoProjection, track: MapTrack): v
       context.beginPath();
       line(context, project, stretch);
       context.lineWidth = isFixed === undefined ? width : isFixed ? 3 : 1.5;
-      context.setLineDash(isFixed === false ? [5, 3] : dash);
+      context.setLineDash(dashes(isFixed === false ? [5, 3] : dash, project, stretch));
       context.stroke();
     }
     context.setLineDash([]);
   }
   drawFixes(context, project, places);
+}
+
+/** More in one line take a browser seconds to draw, and lie upon each other in any view. */
+const MOST_DASHES = 2000;
+
+/** The dashes of a line, or none where they would be too many: it is drawn through then. */
+function dashes(wanted: number[], project: GeoProjection, places: Places): number[] {
+  if (wanted.length === 0) return wanted;
+  const most = MOST_DASHES * wanted.reduce((sum, length) => sum + length, 0);
+  let [length, last] = [0, undefined as [number, number] | undefined];
+  for (const place of places) {
+    const at = project([place.longitude, place.latitude]) ?? undefined;
+    if (at && last) length += Math.hypot(at[0] - last[0], at[1] - last[1]);
+    if (length > most) return [];
+    last = at;
+  }
+  return wanted;
 }
 
 type Places = MapTrack['places'];

@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 PAGE := src/stommel/station/built/index.html
 PAGE_SOURCES := $(shell find page -name node_modules -prune -o -type f -print)
 
-.PHONY: help setup page types run test check format bench docs dist clean
+.PHONY: help setup page page-check types run test check format bench docs dist clean
 
 help:
 	@echo "make run     design the paper's glider, launch it in a simulated sea, and serve the page that commands it"
@@ -73,10 +73,14 @@ format: $(VENV)/test.stamp
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-test: check $(PAGE)
+page-check: $(PAGE)
 	$(BIN)/python page/npm.py run --silent lint
 	$(BIN)/python page/npm.py run --silent check
 	$(BIN)/python page/npm.py run --silent test
+
+# neither check uses more than one core
+test: $(VENV)/test.stamp
+	@$(MAKE) --no-print-directory --jobs=2 check page-check
 	$(BIN)/python -m pytest --numprocesses auto --dist loadscope --no-loadscope-reorder
 
 bench: $(VENV)/test.stamp $(PAGE)

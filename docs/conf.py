@@ -16,6 +16,7 @@ project_copyright = "the stommel authors, Apache-2.0"
 
 extensions = [
     "myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathml", "generated_pages", "titles_in_navigation",
+    "sources_read_once",
 ]  # fmt: skip
 myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
 myst_dmath_double_inline = True

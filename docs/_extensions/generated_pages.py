@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Iterator
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -144,6 +145,7 @@ def _summary(thing: Any) -> str:
     return " ".join((text or "").split("\n\n")[0].split()).replace("|", "\\|")
 
 
+@cache
 def _homes(package: ModuleType) -> dict[str, str]:
     """Where each name that a package passes on is described: module and name; the package's own names are left out."""
     tree = ast.parse(inspect.getsource(package))

@@ -1,8 +1,8 @@
 """The page in Chromium: a station to look at, a browser, pictures under build/screenshots.
 
 `STOMMEL_PAGE_SLOW=8` makes the browser's processor eight times slower: tests that do not wait for what they ask fail.
-`STOMMEL_PAGE_JITTER=400` holds each answer back for up to that many milliseconds, so that they come in any order: what a
-view shows for a moment only, before or after something else, is met then.
+`STOMMEL_PAGE_JITTER=400` holds each answer back for up to that many milliseconds, so that they come in any order: what
+a view shows for a moment only, before or after something else, is met then.
 """
 
 import json

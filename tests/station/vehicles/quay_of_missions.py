@@ -25,6 +25,8 @@ from tests.support.orders import ORDERS
 T = 1_700_000_000.0
 QUIET = 15.0
 ELSEWHERE = b"from elsewhere"
+ON_THE_LINE = 2.0
+"""How long a message that left in time may be on its way [s]."""
 
 
 class KillError(BaseException):
@@ -94,6 +96,7 @@ class Sea:
         self.vehicle = Vehicle()
         self.switched_at: dict[bytes, float] = {}
         """When the vehicle switched to which orders last."""
+        self._elsewhere_at = float("-inf")
         switch = self.vehicle.switch
 
         def switched() -> None:
@@ -143,7 +146,8 @@ class Sea:
     def heard(self) -> None:
         """The station hears the vehicle, and the number of its mission."""
         self._heard_at = self.link.t
-        told = {"mission": len(self.vehicle.files), "phase": -1}
+        is_late = self.link.t - self._elsewhere_at < ON_THE_LINE  # never before an answer of the time before
+        told = {"mission": len(self.vehicle.files) - is_late, "phase": -1}
         self.line.end.heard.last = {"GLIDER_STATE": SimpleNamespace(values=told)}
 
     # what happens
@@ -177,13 +181,16 @@ class Sea:
         self.link.is_silent = not self.link.is_silent
 
     def _kill(self) -> None:
-        self.boot()
+        self.link.shore = End(255, 190, [])
+        self.link.wait(1.0)  # what has left arrives
         self.link.t += self.draw.choice([0.0, 1.0, 300.0])  # until somebody starts it again
+        self.boot()
 
     def _from_elsewhere(self) -> None:
         """The vehicle is given a mission that this station does not know; seldom, and never two in turn."""
         if self.happens(0.3) and not self.vehicle.files[-1].startswith(ELSEWHERE):
             self.vehicle.files.append(ELSEWHERE + b" %d" % len(self.vehicle.files))
+            self._elsewhere_at = self.link.t
 
     def _pass_time(self) -> None:
         self.run(self.draw.choice([0.5, 2.0, 5.0]))
@@ -203,6 +210,7 @@ class Sea:
         """Nothing fails any more, the vehicle lies at the surface, and time passes until all is over."""
         self.kills = self.faults = 0.0
         self.link.loses, self.link.is_silent = (lambda _: False), False
+        self.run(2.0 * ON_THE_LINE)
         for _ in range(400):
             self.run(1.0)
             is_asked = self.follower.held is not None and not self.follower.waiting

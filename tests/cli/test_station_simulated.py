@@ -3,14 +3,17 @@
 import os
 import re
 import signal
+import socket
 import subprocess
+import sys
 import time
 from pathlib import Path
 
 import httpx
 import pytest
 
-from stommel.cli.station.simulated import ended_words
+from stommel.cli.station.simulated import SimulatedGlider, SimulatedGliderError, ended_words
+from stommel.link.transports import inherited
 from tests.station.speaker import until
 from tests.support.command import PROGRAM, run_here
 
@@ -51,6 +54,33 @@ def test_the_page_is_told_that_the_glider_flies_no_more(tmp_path: Path) -> None:
         finally:
             process.send_signal(signal.SIGINT)
             assert process.wait(30) == 0
+
+
+def test_nobody_can_take_the_port_of_a_glider_before_it_listens(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another program tries, at a glider that takes its time; the port is free again when the glider has ended."""
+    slow = [sys.executable, "-c", "import time; time.sleep(600)"]
+    monkeypatch.setattr(SimulatedGlider, "_command", lambda *_: slow)
+    with SimulatedGlider("east_china_sea", 20.0, tmp_path) as glider:
+        place = ("127.0.0.1", int(glider.address.rpartition(":")[2]))
+        with pytest.raises(OSError, match="in use"):
+            socket.create_server(place)
+        with pytest.raises(ConnectionRefusedError):
+            socket.create_connection(place)
+    socket.create_server(place).close()
+
+
+def test_a_machine_without_a_free_port_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def none(_: str) -> socket.socket:
+        raise OSError(98, "Address already in use")
+
+    monkeypatch.setattr(inherited, "reserved", none)
+    with (
+        pytest.raises(SimulatedGliderError, match="Address already in use"),
+        SimulatedGlider("east_china_sea", 20.0, tmp_path),
+    ):
+        pass
 
 
 def reason(client: httpx.Client) -> str:

@@ -1,5 +1,6 @@
 """The log book in the page: notes of people with their times, what else happened beside them, found by words."""
 
+import time
 from typing import Any
 
 import httpx
@@ -131,3 +132,27 @@ def test_a_note_is_begun_from_the_time_that_plots_show(page: Any, past: Past) ->
     page.get_by_text("The note stands in the log book.").wait_for()
     note = httpx.get(f"{past.address}/api/notes?vehicle=1&search=drift").json()[0]
     assert note["t"] == past.begin + 1800.0
+
+
+def test_dives_stand_in_the_log_book_and_lead_to_their_data(
+    page: Any, past: Past, screenshot: Any, serious: Any
+) -> None:
+    """Oracle: the dives that the station tells elsewhere."""
+    from playwright.sync_api import expect
+
+    dives = httpx.get(f"{past.address}/api/vehicles/1/dives").json()
+    opened(page, past).get_by_role("button", name="Dives", exact=True).click()
+    page.locator("li.note").first.wait_for(state="detached")
+    entries = page.locator("li.dive")
+    expect(entries).to_have_count(len(dives))
+    third = entries.filter(has=page.get_by_role("link", name="Dive 3 to 200 m", exact=True))
+    until = time.strftime("%H:%M:%S", time.gmtime(dives[2]["t_end"]))
+    expect(third).to_contain_text(f"60\u202fmin, until {until}; from 30°")
+    expect(third).to_contain_text("; 12.0\u202fkJ")
+    at_rest(page)
+    screenshot("log-dives")
+    assert serious() == []
+    third.get_by_role("link", name="Dive 3 to 200 m", exact=True).focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("table", name="Dives").locator("tbody tr")).to_have_count(1)
+    expect(page.locator("footer")).to_contain_text("Dive 3")

@@ -251,3 +251,42 @@ def test_two_tabs_have_replays_of_their_own(page: Any, past: Past) -> None:
     before = states(past)[0]["at"]
     until(page, lambda: states(past)[0]["at"] > before)
     other.close()
+
+
+def test_the_log_book_of_a_replay_knows_of_a_dive_what_was_known_then(page: Any, past: Past, screenshot: Any) -> None:
+    """Oracle: the dives of the archive; of one that goes on nobody knows how deep it will be."""
+    from playwright.sync_api import expect
+
+    dives = [dive for dive in httpx.get(f"{past.address}/api/vehicles/1/dives").json() if dive["t_end"]]
+    first, second = dives[:2]
+    begun(page, past, "1")
+    page.get_by_role("button", name="Pause").click()
+    page.get_by_role("button", name="Go on").wait_for()
+    page.get_by_role("tab", name="Log book").click()
+    page.get_by_role("button", name="Dives", exact=True).click()
+    (state,) = states(past)
+
+    def told_at(t: float) -> None:
+        httpx.put(f"{past.address}/api/replays/{state['replay']}", json={"at": t}).raise_for_status()
+
+    entries = page.locator("li.dive")
+    told_at(second["t_begin"] + 60.0)
+    expect(entries).to_have_count(2)
+    expect(entries.filter(has_text="Dive 2")).to_contain_text("under way")
+    expect(entries.filter(has_text="Dive 2")).not_to_contain_text("200 m")
+    expect(entries.filter(has_text="Dive 1 to 200 m")).to_contain_text("kJ")
+    screenshot("replay-log")
+    told_at(first["t_begin"] + 60.0)
+    expect(entries).to_have_count(1)
+    expect(entries).to_contain_text("under way")
+
+
+def test_a_dive_comes_into_the_log_book_when_it_has_ended(page: Any, past: Past) -> None:
+    """Here, where a further dive is in nobody's way."""
+    page.goto(f"{past.address}/#/vehicle/1/log?kinds=dive")
+    page.locator("li.dive").first.wait_for()
+    t = round((past.begin - 86_400.0) * 1e3)
+    past.speaker.say(
+        "DIVE_SUMMARY", time_begin_unix_ms=t, time_end_unix_ms=t + 600_000, dive=77, greatest_depth=33.0, energy=9000.0
+    )
+    page.locator("li.dive", has_text="Dive 77 to 33 m").wait_for()

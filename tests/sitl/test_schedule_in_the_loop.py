@@ -22,6 +22,7 @@ from stommel.sitl.system import System
 from tests.sitl.comparison import mission_of
 
 SECONDS = 1500
+CTD_FIELDS = ("pressure", "temperature", "conductivity")
 T = TypeVar("T")
 Change = Callable[[CoordinatorSettings], CoordinatorSettings]
 
@@ -44,6 +45,8 @@ def system(monkeypatch: pytest.MonkeyPatch) -> Callable[[Change], System]:
 def test_the_ctd_samples_at_the_interval_of_the_phase(system: Callable[[Change], System]) -> None:
     flying = system(lambda s: replace(s, schedule=PowerSchedule(ctd=by_phase(5.0, descent=20.0, ascent=2.0))))
     samples: dict[int, list[float]] = {DESCENT: [], ASCENT: []}
+    water: dict[int, list[tuple[object, ...]]] = {DESCENT: [], ASCENT: []}
+    assert 2.0 < flying.mission.scenario.sampling.every_s < 20.0
     since, before = 0.0, -1
     silent: set[str] = set()
     counted: Counter[str] = flying.coordinator.perception.decoder.received
@@ -56,12 +59,15 @@ def test_the_ctd_samples_at_the_interval_of_the_phase(system: Callable[[Change],
             since, before = t, phase
         if counted["CtdSample"] > had and phase in samples and t - since > 30.0:
             samples[phase].append(t)
+            water[phase].append(tuple(flying.coordinator.perception.value("CtdSample", name) for name in CTD_FIELDS))
         silent |= {source.name for source in view.health.sources if source.condition is Condition.SILENT}
         silent |= {alarm.name for alarm in view.safety.active if alarm.name == "silent CTD"}
         assert not flying.coordinator.perception.watch.reports(3, "CtdSilent")
     assert silent == set()
     assert set(np.diff(samples[DESCENT])) == {20.0}
     assert set(np.diff(samples[ASCENT])) == {2.0}
+    for found in water.values():
+        assert len(set(found)) == len(found) > 10, "a sample tells the water of the one before again"
 
 
 def test_a_compass_that_rests_measures_just_before_each_decision(system: Callable[[Change], System]) -> None:

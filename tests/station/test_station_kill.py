@@ -22,14 +22,17 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 import httpx
+import pytest
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
 from stommel.archive import Archive
 from stommel.link.frames import HEAD
 from stommel.messages.mavlink import message_named
-from tests.station.speaker import Speaker, speaker
+from tests.station.served import served
+from tests.station.speaker import Speaker, speaker, until
 from tests.support.lives import command_line, life
+from tests.support.orders import ORDERS
 
 KILLS = int(os.environ.get("STOMMEL_STATION_KILLS", "20"))
 LONGEST = 1.2
@@ -169,3 +172,22 @@ def test_no_acknowledged_record_is_lost_however_often_the_server_is_killed(tmp_p
             assert load.commands <= kept
         assert load.seen
         assert load.commands
+
+
+def test_a_mission_that_waits_outlives_a_kill_and_is_flown_once(tmp_path: Path) -> None:
+    """Given under water, to a server that dies. Oracle: which orders the vehicle held in the end."""
+    with served() as vehicle:
+        vehicle.under_water = True
+        with server(tmp_path, vehicle.address) as (process, page):
+            asked = {"orders": ORDERS, "valid_for_s": 7200.0}
+            given = httpx.post(f"http://{page}/api/vehicles/1/mission", json=asked, timeout=60.0).json()
+            process.kill()
+            process.join()
+        with server(tmp_path, vehicle.address) as (_, page), httpx.Client(base_url=f"http://{page}/api") as client:
+            waits = client.get("/vehicles/1/mission").json()["upload"]
+            assert (waits["id"], waits["state"]) == (given["id"], "waiting")
+            assert waits["expires"] == pytest.approx(given["expires"], abs=1e-3)
+            vehicle.under_water = False
+            until(lambda: client.get(f"/vehicles/1/missions/{given['id']}").json()["state"] == "aboard")
+            until(lambda: client.get("/vehicles/1/mission").json()["waiting"] == 0)
+            assert vehicle.missions.files == [b"the first orders", ORDERS.encode()]

@@ -436,13 +436,14 @@ export interface components {
         };
         LogEntry: {
             /** @enum {string} */
-            kind: "alarm" | "command" | "hold" | "limit" | "mission" | "note" | "parameter" | "text" | "transfer";
+            kind: "alarm" | "command" | "dive" | "hold" | "limit" | "mission" | "note" | "parameter" | "text" | "transfer";
             id: string;
             vehicle: number | null;
             t: number;
             user: string | null;
             words: string;
             state: string | null;
+            dive: components["schemas"]["Dive"] | null;
         };
         LogPage: {
             entries: components["schemas"]["LogEntry"][];

@@ -8,7 +8,7 @@ from sqlalchemy import Connection, inspect, text
 from stommel.archive.errors import ArchiveBrokenError, ArchiveError
 from stommel.archive.quiet_opening import quietly_opened
 
-CURRENT = "stommel_0004"
+CURRENT = "stommel_0005"
 """The version of schema.py: the last of migrations/versions."""
 
 _OURS = "stommel_"

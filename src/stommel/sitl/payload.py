@@ -17,21 +17,26 @@ NOTHING = CtdTruth(0.0, 0.0, 0.0)
 
 
 class Payload:
-    """Tells the CTD what it measures, once an interval; in between it stays what it was."""
+    """Tells the CTD what it measures, once an interval; in between it stays what it was.
+
+    The interval is that of the scenario, or that of the vehicle where it samples more often, by its orders or by the
+    phase of its dive. Each sample of the vehicle is then of water of its own, and nothing is worked out that nobody
+    samples.
+    """
 
     def __init__(self, scenario: ScenarioFile) -> None:
         self._noise = np.random.default_rng((scenario.seed, 1))
         self._ctd, self._every = scenario.ctd, scenario.sampling.every_s
-        self._due = -math.inf
+        self._renewed = -math.inf
         self._last = NOTHING
 
-    def truth(self, plant: Plant, latitude: float, longitude: float, utc: float) -> CtdTruth:
-        """What the CTD measures now, at a place [deg]."""
-        if plant.time < self._due - 1e-6:
+    def truth(self, plant: Plant, latitude: float, longitude: float, utc: float, sampled_every: float) -> CtdTruth:
+        """What the CTD measures now, at a place [deg], on a vehicle that samples once in so long [s]."""
+        if plant.time < self._renewed + min(self._every, sampled_every) - 1e-6:
             return self._last
         import gsw  # noqa: PLC0415 - the first sample needs it
 
-        self._due = plant.time + self._every
+        self._renewed = plant.time
         felt, ctd = plant.water(), self._ctd
         noise = self._noise.standard_normal(3)
         p = max(felt.pressure / _DBAR, 0.0)

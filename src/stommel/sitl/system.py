@@ -241,7 +241,8 @@ class System:
             return
         latitude, longitude = degrees(self.plant.setup.world["latitude"]), degrees(self.plant.setup.world["longitude"])
         sampling = self.switched.sampling
-        truth = self.payload.truth(self.plant, latitude, longitude, self._utc(t)) if sampling else NOTHING
+        every = self.coordinator.samples_every
+        truth = self.payload.truth(self.plant, latitude, longitude, self._utc(t), every) if sampling else NOTHING
         said = self.inject.heard("ctd", ctd.exchange(self.ports.to_ctd, self.inject.ctd(truth), t))
         frames, self.switched = self.acquisition.step(t, heard, self._acquisition_readings(felt), said)
         self.ports.to_ctd = self.switched.ctd_bytes

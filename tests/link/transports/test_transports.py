@@ -16,6 +16,7 @@ from stommel.link.outbox import Priority
 from stommel.link.session import Session
 from stommel.link.transports import Transport, TransportError, TransportState, open_transport
 from stommel.link.transports.address import read_address
+from stommel.link.transports.inherited import reserved, take_over
 from stommel.link.transports.outgoing import OutgoingBytes
 from stommel.link.transports.tcp import TcpClient
 from tests.support.ports import free_port, port_of_nobody
@@ -149,6 +150,28 @@ def test_a_network_without_an_answer_is_said_after_a_time() -> None:
     assert client.reason == "no answer"
     assert client.state is TransportState.WAITING
     client.close()
+
+
+def test_a_listener_has_the_socket_that_was_bound_for_its_program() -> None:
+    """Nobody is let in before it listens; the socket is given once, and to no other address."""
+    with reserved("127.0.0.1") as made:
+        port = made.getsockname()[1]
+        with pytest.raises(ConnectionRefusedError):
+            socket.create_connection(("127.0.0.1", port))
+        with pytest.raises(TransportError, match="another program listens there already"):
+            open_transport(f"tcp-listen:127.0.0.1:{port}")
+        take_over(os.dup(made.fileno()))
+    other = open_transport("tcp-listen:127.0.0.1:0")
+    server = open_transport(f"tcp-listen:127.0.0.1:{port}")
+    with socket.create_connection(("127.0.0.1", port)) as client:
+        until(lambda: is_open(server))
+        client.sendall(b"hello")
+        until(lambda: server.read(0.0) == b"hello")
+    with pytest.raises(TransportError, match="another program listens there already"):
+        open_transport(f"tcp-listen:127.0.0.1:{port}")
+    server.close()
+    other.close()
+    open_transport(f"tcp-listen:127.0.0.1:{port}").close()
 
 
 def test_udp_that_was_refused_is_heard_again_by_itself() -> None:

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from sqlalchemy import insert
 
+from stommel.archive import Batch, DiveRow
 from stommel.archive.schema import alarms, commands, files, missions, parameter_writes
 from stommel.station.logbook.feed import page_of
 from stommel.station.logbook.notes import Notes
@@ -17,6 +18,11 @@ from tests.station.client import Client
 from tests.station.stations import station as running
 
 T0 = 1_700_000_000.0
+DIVE = DiveRow(7, T0, T0 + 3600.0, 28.0, 126.0, 28.01, 126.02, 197.6, 0.1, -0.2, 5200.0)
+
+
+ALL_KINDS = ["alarm", "command", "dive", "mission", "note", "parameter", "transfer"]
+"""Of what is in `filled`, in the order of the list."""
 
 
 @pytest.fixture
@@ -57,6 +63,7 @@ def filled(station: Station) -> None:
         connection.execute(insert(alarms), [{"vehicle_id": vehicle, **alarm} for vehicle in (1, 2)])
         connection.execute(insert(commands), {key: value for key, value in command.items() if key in commands.c})
         connection.execute(insert(missions), mission)
+    station.archive.store(1, Batch(dives=[DIVE]))
     Notes(station.archive).add(1, T0, "ana", "Launched from the pier")
 
 
@@ -110,6 +117,7 @@ def test_everything_about_a_vehicle_is_in_one_list(station: Station, client: Cli
     assert told == [
         ("alarm", None, "Depth greater than 200 m", "over, seen by ana: seen it"),
         ("command", "ben", "Command surface: why 3", "done: executed"),
+        ("dive", None, "Dive 7 to 198 m", "ended"),
         ("mission", "ana", "Mission Zhoushan", "aboard"),
         ("note", "ana", "Launched from the pier", None),
         ("parameter", "ben", "Parameter DEPTH_MAX of component 1 set to 150", "refused: out of range"),
@@ -129,17 +137,51 @@ def test_pages_of_the_list_leave_nothing_out_and_repeat_nothing(station: Station
     filled(station)
     for n in range(9):
         Notes(station.archive).add(1, T0 + n // 3, "ana", f"note {n}")
+    # each mission counts its dives from 1
+    station.archive.store(
+        1, Batch(dives=[DIVE._replace(dive=n % 4, t_begin=T0 + 100.0 * (n // 2)) for n in range(1, 9)])
+    )
     whole = page_of(station.archive, 1, limit=500).entries
-    assert len(whole) == 15
+    assert len(whole) == 24
+    assert len({(entry.kind, entry.id) for entry in whole}) == 24
     assert [entry.t for entry in whole] == sorted((entry.t for entry in whole), reverse=True)
     found, before = [], None
-    for _ in range(20):
+    for _ in range(30):
         page = page_of(station.archive, 1, limit=limit, before=before)
         found += page.entries
         before = page.next
         if before is None:
             break
     assert found == whole
+
+
+def test_a_dive_is_told_with_all_that_is_known_of_it(station: Station, client: Client) -> None:
+    filled(station)
+    (entry,) = client.get("/vehicles/1/log", kinds=["dive"])["entries"]
+    assert entry["dive"] == DIVE._asdict()
+    assert client.get("/vehicles/2/log", kinds=["dive"])["entries"] == []
+    assert client.get("/vehicles/1/log", search="dive 7")["entries"] == [entry]
+    assert client.get("/vehicles/1/log", search="dive 8")["entries"] == []
+
+
+@pytest.mark.parametrize(
+    ("until", "state", "t_end", "depth"),
+    [(T0 - 1.0, None, None, None), (T0 + 3599.0, "under way", None, None), (T0 + 3600.0, "ended", T0 + 3600.0, 197.6)],
+)
+def test_until_a_time_only_what_had_happened_is_told(
+    station: Station, client: Client, until: float, state: str | None, t_end: float | None, depth: float | None
+) -> None:
+    """A replay shows nothing of what is still to come: not how deep a dive will be, nor where it will end."""
+    filled(station)
+    Notes(station.archive).add(1, T0 + 7200.0, "ana", "Recovered")
+    found = client.get("/vehicles/1/log", until=until)["entries"]
+    assert [entry["kind"] for entry in found] == ([] if state is None else ALL_KINDS)
+    for entry in found:
+        if entry["kind"] == "dive":
+            told = entry["dive"]
+            assert (entry["state"], told["t_end"], told["greatest_depth_m"]) == (state, t_end, depth)
+            assert (told["latitude_end"] is None, told["latitude_begin"]) == (t_end is None, 28.0)
+            assert ("198 m" in entry["words"]) == (depth is not None)
 
 
 def test_who_held_command_and_set_limits_is_told_at_the_time_of_the_vehicle(tmp_path: Path) -> None:

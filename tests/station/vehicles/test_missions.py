@@ -10,7 +10,7 @@ from stommel.archive import ArchiveBusyError
 from stommel.errors import StommelError
 from stommel.station.station import Station
 from stommel.station.vehicles import asking
-from stommel.station.vehicles.mission_rows import MissionRow, MissionRows
+from stommel.station.vehicles.mission_rows import MissionRows
 from stommel.station.vehicles.missions import MissionError
 from stommel.station.vehicles.opening import VehicleError
 from tests.plans.plans import place, plan_with
@@ -141,15 +141,6 @@ def test_an_archive_that_is_busy_for_a_moment_loses_no_word_of_a_mission(
         assert failed == [state]
 
 
-def test_a_mission_that_is_given_before_the_first_look_is_not_told_as_interrupted(tmp_path: Path) -> None:
-    with served() as vehicle, station(tmp_path, vehicle.address, start=False) as found:
-        line = found.vehicles[1]
-        row = MissionRow(0, 1, line.clock.now(), "ada", "Another way", "", OTHER, None, "waiting")
-        MissionRows(found.archive).add(row, "waits to be sent")
-        found.missions._followers[1].look(line, line.clock.link_now())
-        assert states(found) == [("Another way", "waiting")]
-
-
 def test_a_mission_that_a_busy_line_does_not_take_waits_for_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -174,7 +165,9 @@ def test_what_is_no_mission_is_refused_before_it_goes_to_sea(tmp_path: Path) -> 
         assert states(found) == []
 
 
-def test_a_mission_on_its_way_when_the_station_stops_is_told_as_interrupted(tmp_path: Path) -> None:
+def test_a_mission_on_its_way_when_the_station_stops_goes_on_after_the_vehicle_has_said_what_it_holds(
+    tmp_path: Path,
+) -> None:
     with served() as vehicle:
         holds(vehicle, ORDERS)
         with station(tmp_path, vehicle.address) as found:
@@ -183,10 +176,10 @@ def test_a_mission_on_its_way_when_the_station_stops_is_told_as_interrupted(tmp_
             upload(Client(found), OTHER)
             until(lambda: states(found)[0][1] == "sending")
         with station(tmp_path, vehicle.address) as again:
-            until(lambda: states(again) == [("Another way", "interrupted"), ("in memory", "aboard")])
+            assert states(again) == [("Another way", "sending"), ("in memory", "aboard")]
             vehicle.under_water = False
-            until(lambda: ("in memory", "aboard") in states(again))
-            assert vehicle.missions.files == [ORDERS.encode()]
+            until(lambda: states(again) == [("Another way", "aboard"), ("in memory", "replaced")])
+            assert vehicle.missions.files == [ORDERS.encode(), OTHER.encode()]
 
 
 def test_a_mission_refused_under_water_is_sent_again_at_the_surface(

@@ -140,16 +140,6 @@ def test_the_return_to_the_mission_before_is_seen_and_taken_back(tmp_path: Path)
             assert flown(vehicle)[-1] == OTHER.encode()
 
 
-def test_one_that_waited_when_the_station_stopped_is_told_as_not_sent(tmp_path: Path) -> None:
-    with under_water(tmp_path) as (vehicle, _, client):
-        row = upload(client, OTHER)
-        assert row["state"] == "waiting"
-    with served() as vehicle, station(tmp_path, vehicle.address) as again:
-        until(lambda: ("Another way", "interrupted") in states(again))
-        assert "before it was sent" in mission(Client(again), row["id"])["words"]
-        assert OTHER.encode() not in flown(vehicle)
-
-
 def test_an_archive_that_is_busy_takes_nothing_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What could not be written down was not done: the mission still waits."""
     with under_water(tmp_path) as (_, found, client):

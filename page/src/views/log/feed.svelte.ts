@@ -1,4 +1,5 @@
-// The log book of a vehicle, the newest first, page by page; what happens meanwhile comes in at the top.
+// The log book of a vehicle, the newest first, page by page; what happens meanwhile comes in at the top, in a replay what
+// had happened by then.
 
 import { api, sentence } from '../../lib/api';
 import { live } from '../../lib/live.svelte';
@@ -8,7 +9,7 @@ export type { LogEntry };
 
 const PAGE = 100;
 const REST_MS = 250;
-const KINDS: readonly EventKind[] = ['note', 'command', 'mission', 'alarm', 'parameter', 'holder', 'limit', 'text', 'log'];
+const KINDS: readonly EventKind[] = ['note', 'dive', 'command', 'mission', 'alarm', 'parameter', 'holder', 'limit', 'text', 'log'];
 const NOTICE = 5;
 
 export class Feed {
@@ -23,7 +24,15 @@ export class Feed {
   #timer: ReturnType<typeof setTimeout> | undefined;
   #ends: (() => void)[];
 
-  constructor(readonly vehicle: number) {
+  constructor(
+    readonly vehicle: number,
+    /** Of a replay: until when [s since 1970]. */
+    private until?: number,
+  ) {
+    if (until !== undefined) {
+      this.#ends = [];
+      return;
+    }
     const again = (): void => this.#soon(() => void this.#refresh());
     this.#ends = KINDS.map((kind) => live.on(kind, (event) => (event.vehicle ?? vehicle) === vehicle && again()));
     this.#ends.push(live.onOpen(again));
@@ -45,6 +54,17 @@ export class Feed {
     this.#soon(() => void this.#begin());
   }
 
+  /** A replay is at another time; what is shown of a later one is forgotten. */
+  goTo(until: number | undefined): void {
+    const before = this.until;
+    if (until === undefined || before === undefined || until === before) return;
+    this.until = until;
+    if (until < before) {
+      this.#number += 1;
+      this.#soon(() => void this.#begin());
+    } else if (this.#timer === undefined) this.#soon(() => void this.#refresh()); // often is often enough
+  }
+
   async older(): Promise<void> {
     if (this.next === null || this.isBusy) return;
     this.isBusy = true;
@@ -63,7 +83,10 @@ export class Feed {
 
   #soon(action: () => void): void {
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(action, this.entries === undefined ? 0 : REST_MS);
+    this.#timer = setTimeout(() => {
+      this.#timer = undefined;
+      action();
+    }, this.entries === undefined ? 0 : REST_MS);
   }
 
   #begin(): Promise<void> {
@@ -91,6 +114,7 @@ export class Feed {
     if (!this.#kinds.includes('text')) query.set('severity', String(NOTICE));
     if (this.#search) query.set('search', this.#search);
     if (before !== null) query.set('before', before);
+    if (this.until !== undefined) query.set('until', String(this.until));
     try {
       const page = await api.get<LogPage>(`/vehicles/${this.vehicle}/log?${query.toString()}`);
       if (number !== this.#number) return;

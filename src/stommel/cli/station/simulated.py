@@ -2,7 +2,6 @@
 
 import os
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -57,18 +56,19 @@ class SimulatedGlider:
         self.key = self._folder / f"vehicle-{vehicle}.key"
         self.words = self._folder / "glider.txt"
         """What it prints."""
-        self._port = _free_port()
+        self._port = 0
+        """Known once it is started."""
         self._process: subprocess.Popen[bytes] | None = None
         self._ended = ""
 
     @property
     def address(self) -> str:
-        """Where the station reaches it."""
+        """Where the station reaches it, once it is started."""
         return f"tcp:127.0.0.1:{self._port}"
 
     @property
     def settings(self) -> dict[str, Any]:
-        """How a station reaches it."""
+        """How a station reaches it, once it is started."""
         model = str(self._told.get("vehicle", "zju"))
         if model.endswith(".toml"):
             model = str((self._mission.parent / model).resolve())
@@ -92,16 +92,21 @@ class SimulatedGlider:
         Raises
         ------
         SimulatedGliderError
-            Its folder cannot be written.
+            Its folder cannot be written, or no port is free.
         """
+        from stommel.link.transports.inherited import reserved
+
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
             self._make_key()
-            with self.words.open("wb") as said:
+            # the glider gets the socket itself: a port that is only known to be free may be taken a moment later
+            with self.words.open("wb") as said, reserved("127.0.0.1") as port:
+                self._port = port.getsockname()[1]
                 # a session of its own: Ctrl-C is for the station, which ends it
                 self._process = subprocess.Popen(
-                    self._command(), stdin=subprocess.PIPE, stdout=said, stderr=said, start_new_session=True
-                )
+                    self._command(port.fileno()), stdin=subprocess.PIPE, stdout=said, stderr=said,
+                    start_new_session=True, pass_fds=[port.fileno()],
+                )  # fmt: skip
         except OSError as error:
             raise SimulatedGliderError(f"{error.filename or self._folder}: {error.strerror or error}") from None
         return self
@@ -127,8 +132,8 @@ class SimulatedGlider:
         if not self.key.exists():
             KeyFile(self.key).write(new_keys(self.vehicle, time.time()))
 
-    def _command(self) -> list[str]:
-        program = "from stommel.cli import main; from stommel.cli.station.simulated import fly; fly(main)"
+    def _command(self, socket: int) -> list[str]:
+        program = f"from stommel.cli import main; from stommel.cli.station.simulated import fly; fly(main, {socket})"
         return [
             sys.executable, "-c", program,
             "sitl", "fly", os.fspath(self._mission.resolve()), "--speed", f"{self.speed:g}", "--no-live",
@@ -157,8 +162,19 @@ def ended_words(status: int, said: Path) -> str:
     return f"the program of the simulated glider has failed: {told}; all that it said is in {said}"
 
 
-def fly(main: Callable[[], None]) -> None:
-    """Run the command line in the glider's process, until the station ends: killed, it could not end its glider."""
+def fly(main: Callable[[], None], socket: int) -> None:
+    """Run the command line in the glider's process, until the station ends: killed, it could not end its glider.
+
+    Parameters
+    ----------
+    main
+        The command line.
+    socket
+        File descriptor of the socket that has the port at which the glider listens.
+    """
+    from stommel.link.transports.inherited import take_over
+
+    take_over(socket)
     Thread(target=_end_with_station, daemon=True).start()
     main()
 
@@ -167,10 +183,3 @@ def _end_with_station() -> None:
     """Wait until nobody holds the other end of the standard input; nothing is ever written to it."""
     os.read(0, 1)
     os.kill(os.getpid(), signal.SIGINT)
-
-
-def _free_port() -> int:
-    """A TCP port of this machine on which nobody listens now."""
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        port: int = server.getsockname()[1]
-        return port

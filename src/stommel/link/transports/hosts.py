@@ -5,6 +5,7 @@ import socket
 from typing import Any
 
 from stommel.link.transports.address import Address
+from stommel.link.transports.inherited import taken_over
 
 _WORDS = {
     errno.ECONNREFUSED: "refused: no program listens there",
@@ -40,7 +41,7 @@ def in_words(error: OSError) -> str:
 
 
 def bound(address: Address, kind: socket.SocketKind) -> socket.socket:
-    """Return a socket that has the address, and never waits.
+    """Return a socket that has the address, and never waits; one that was bound for this program comes first.
 
     Raises
     ------
@@ -48,6 +49,9 @@ def bound(address: Address, kind: socket.SocketKind) -> socket.socket:
         It cannot have it.
     """
     family, place = looked_up(address, kind)
+    if (handed := taken_over(kind, place)) is not None:
+        handed.setblocking(False)
+        return handed
     made = socket.socket(family, kind)
     try:
         if kind is socket.SOCK_STREAM:

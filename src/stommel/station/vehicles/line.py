@@ -296,7 +296,7 @@ class VehicleLine:
             self.ingest.say(out, t)
 
     def _keep_clock(self, real: float) -> None:
-        if real - self._clock_at >= CLOCK_EVERY and self.clock.is_set:
+        if real - self._clock_at >= CLOCK_EVERY:
             self._clock_at = real
             self._write_clock()
 

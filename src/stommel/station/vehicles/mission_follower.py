@@ -2,9 +2,11 @@
 
 import time
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
+from stommel.archive import ArchiveError
 from stommel.link.endings import Ending, Progress
 from stommel.link.missions.orders_client import OrdersOutcome
 from stommel.link.missions.port import HeldOrders
@@ -17,6 +19,7 @@ from stommel.station.vehicles.mission_rows import (
     EXPIRED,
     FAILED,
     INTERRUPTED,
+    OPEN,
     REFUSED,
     REPLACED,
     SENDING,
@@ -24,13 +27,16 @@ from stommel.station.vehicles.mission_rows import (
     WAITING,
     MissionRow,
     MissionRows,
+    MissionState,
 )
 from stommel.station.vehicles.mission_task import HAS_NOT, MAYBE, EndedTask, Task
+from stommel.station.vehicles.missions_left import HELD_BEFORE, Left
 
 EVERY = 0.2
 """Between two looks [s]."""
-STOPPED = "the station stopped while it was on its way; what is aboard is old or new, whole: look, and send it again"
-NEVER = "the station stopped before it was sent: send it again"
+WAITS = "waits until the vehicle is heard at the surface"
+NOT_KEPT = "not sent: the archive had not said that it keeps it"
+GOES_ON = "goes on: the archive had not said that it keeps the one that should come in its place"
 AGAIN = 10.0
 """Between two tries of what was refused under water [s]."""
 UNDER_WATER = "send it at the surface"
@@ -58,34 +64,34 @@ class MissionFollower:
     tell
         Is called when a mission has changed.
     left
-        Missions that were on their way when the station stopped; they are told as interrupted.
+        What was not over when the station stopped.
     """
 
-    def __init__(
-        self, rows: MissionRows, folder: Path, tell: Callable[[int, int | None], None], left: Sequence[MissionRow]
-    ) -> None:
+    def __init__(self, rows: MissionRows, folder: Path, tell: Callable[[int, int | None], None], left: Left) -> None:
         self._rows, self._tell = rows, tell
         self._fetch = MissionFetch(folder)
         self._due = 0.0
-        self._queue: deque[Task] = deque()
+        self._queue: deque[Task] = deque([] if left.task is None else [left.task])
         self.current: Task | None = None
         self.underway: tuple[Task | None, Progress | None] = None, None
         """The request that is on its way, and of an upload how far it is [bytes], when the line looked last."""
         self.open: tuple[Task, ...] = ()
         """Requests of people that are not over, the one that is on its way first."""
-        self._ended: deque[EndedTask] = deque()
-        """Ended by a newer one, and not written yet."""
+        self._ended: deque[EndedTask] = deque(left.ended)
+        """Not written yet."""
+        self._is_doubtful = False
+        """Whether the archive may have something that it has not said that it keeps."""
         self.held: HeldOrders | None = None
         """What the vehicle said that it holds; None before."""
         self.held_at = 0.0
         """When that was, by the vehicle's clock [s since 1970]."""
         self.words = "the vehicle has not been asked yet"
         """Why it is not known which orders it holds, or what the last request came to."""
-        self._left = list(left)
         self._again_at = float("-inf")
         """When what was refused under water is tried again [s]."""
         self._asked_for: object = ()
         """Number of the mission that the vehicle told when it was asked last; () before."""
+        self._note_open()
 
     @property
     def waiting(self) -> int:
@@ -94,16 +100,37 @@ class MissionFollower:
 
     # what is asked for
 
-    def put(self, line: VehicleLine, task: Task, t: float) -> None:
-        """Take a request of a person in place of all before it, so that nobody flies what was corrected meanwhile."""
+    def put(self, line: VehicleLine, task: Task, t: float, preview: Mapping[str, Any] | None = None) -> Task:
+        """Take a request of a person in place of all before it, so that nobody flies what was corrected meanwhile.
+
+        Returns it, with the number of its mission in the archive.
+
+        Raises
+        ------
+        ArchiveError
+            It cannot be written; those before it go on.
+        """
         task.until = t + task.within
-        now = line.clock.now()
-        for other in self._of_people(line):
-            words = f"{task.title} of {task.user} came in its place; {self._truth(line, other)}"
-            self._ended.append(EndedTask(other, SUPERSEDED, words, task.user, now))
-            self._let_go(line, other)
+        now, before = line.clock.now(), f"{task.title} of {task.user} came in its place"
+        ended = [
+            EndedTask(other, SUPERSEDED, f"{before}; {self._truth(line, other)}", task.user, now)
+            for other in self._of_people(line)
+        ]
+        states = {each.task.row.id: each.as_state for each in ended if each.task.row is not None}
+        try:
+            if task.row is None:
+                self._rows.change_all(states)
+            else:  # one transaction: a station that is killed here goes on with the one or with the other
+                task.row = self._rows.add(task.row._replace(until=task.until), WAITS, preview, states)
+        except ArchiveError:
+            self._is_doubtful = True
+            raise
+        for each in ended:
+            self._let_go(line, each.task)
+            self._tell_ended(line, each)
         self._queue.append(task)
         self._note_open()
+        return task
 
     def take_back(self, line: VehicleLine, wanted: Callable[[Task], bool], user: str) -> bool:
         """Take a request back; whether there was one that is not over.
@@ -130,7 +157,8 @@ class MissionFollower:
 
     def _truth(self, line: VehicleLine, task: Task) -> str:
         """What is known of the vehicle when a request ends before its answer."""
-        return MAYBE if task is self.current and line.end.orders.is_told else HAS_NOT
+        is_told = task is self.current and line.end.orders.is_told
+        return MAYBE if is_told or task.may_be_aboard else HAS_NOT
 
     def _let_go(self, line: VehicleLine, task: Task) -> None:
         if task is not self.current:
@@ -143,11 +171,14 @@ class MissionFollower:
 
     def _write(self, line: VehicleLine, ended: EndedTask) -> None:
         """Write what became of a request, and tell it."""
+        if ended.task.row is not None:
+            self._rows.change(ended.task.row.id, ended.state, ended.words, ended.t, ended.user)
+        self._tell_ended(line, ended)
+
+    def _tell_ended(self, line: VehicleLine, ended: EndedTask) -> None:
         row = ended.task.row
         if row is None:
             self.words = f"not rolled back: {ended.words}"
-        else:
-            self._rows.change(row.id, ended.state, ended.words, ended.t, ended.user)
         self._tell(line.vehicle, None if row is None else row.id)
 
     def _note_open(self) -> None:
@@ -161,10 +192,8 @@ class MissionFollower:
         if real < self._due:
             return
         self._due = real + EVERY
-        while self._left:
-            words = NEVER if self._left[-1].state == WAITING else STOPPED
-            self._rows.change(self._left[-1].id, INTERRUPTED, words, line.clock.now())
-            self._left.pop()
+        if self._is_doubtful:
+            self._clear_doubt(line)
         while self._ended:
             self._write(line, self._ended[0])
             self._ended.popleft()
@@ -181,6 +210,20 @@ class MissionFollower:
         self._note_open()
         self.underway = self.current, line.end.orders.progress(t) if is_upload else None
 
+    def _clear_doubt(self, line: VehicleLine) -> None:
+        """Let the archive say of missions what is so, whatever it has kept of a request that was told as not kept."""
+        now, tasks = line.clock.now(), (self.current, *self._queue)
+        mine = {task.row.id: task for task in tasks if task is not None and task.row is not None}
+        strays = [row.id for row in self._rows.in_states(line.vehicle, *OPEN) if row.id not in mine]
+        states = {id: MissionState(now, None, FAILED, NOT_KEPT) for id in strays}
+        for id, task in mine.items():
+            is_on_its_way = task is self.current or task.may_be_aboard
+            states[id] = MissionState(now, None, SENDING if is_on_its_way else WAITING, GOES_ON)
+        self._rows.change_all(states)
+        self._is_doubtful = False
+        for id in states:
+            self._tell(line.vehicle, id)
+
     def _ask_if_new(self, line: VehicleLine) -> None:
         """Ask what is held when the vehicle is first heard, and when it tells another mission."""
         said = line.end.heard.last.get("GLIDER_STATE")
@@ -192,7 +235,7 @@ class MissionFollower:
     def _expire(self, line: VehicleLine, t: float) -> None:
         """End what waits for longer than it may."""
         for task in [each for each in self._queue if t >= each.until]:
-            words = f"its time was over; {HAS_NOT}"
+            words = f"its time was over; {self._truth(line, task)}"
             self._write(line, EndedTask(task, EXPIRED, words, None, line.clock.now()))
             self._queue.remove(task)
 
@@ -201,6 +244,9 @@ class MissionFollower:
         return task.is_of_people and (t < self._again_at or not line.end.is_heard(t) or is_under_water(line))
 
     def _begin(self, line: VehicleLine, task: Task, t: float) -> None:
+        if task.may_be_aboard:
+            task = Task("ask")
+            self._queue.appendleft(task)
         orders = line.end.orders
         within = min(task.within, task.until - t)
         if task.kind == "roll-back" and (self.held is None or not self.held.previous):
@@ -255,13 +301,33 @@ class MissionFollower:
     def _take_held(self, line: VehicleLine, held: HeldOrders, now: float) -> None:
         """Note which orders the vehicle holds; fetch them if nobody here has seen them."""
         self.held, self.held_at, self.words = held, now, ""
+        left = self._settle_left(line, held, now)
         if held.sha256:
-            row = self._rows.of_hash(line.vehicle, held.sha256.hex())
+            row = left or self._rows.of_hash(line.vehicle, held.sha256.hex())
             if row is not None:
                 self._be_aboard(line, row, now, "the vehicle says that it holds it")
             else:
                 self._fetch.want(line.end, held.sha256)
         self._tell(line.vehicle, None)
+
+    def _settle_left(self, line: VehicleLine, held: HeldOrders, now: float) -> MissionRow | None:
+        """End what was on its way when the station stopped, if the vehicle has, or had, switched to it.
+
+        Returns the mission if the vehicle holds it; if it never came to hold it, it is sent.
+        """
+        task = next((each for each in self._queue if each.may_be_aboard), None)
+        if task is None or task.row is None:
+            return None
+        sha256 = bytes.fromhex(task.row.sha256)
+        if sha256 == held.sha256:
+            self._be_aboard(line, task.row, now, "the vehicle says that it holds it")
+        elif sha256 == held.previous:
+            self._write(line, EndedTask(task, INTERRUPTED, HELD_BEFORE, None, now))
+        else:
+            task.may_be_aboard = False
+            return None
+        self._queue.remove(task)
+        return task.row if sha256 == held.sha256 else None
 
     def _be_aboard(self, line: VehicleLine, row: MissionRow, now: float, words: str) -> None:
         for other in self._rows.in_states(line.vehicle, ABOARD):

@@ -31,6 +31,8 @@ class MissionRow(NamedTuple):
     plan: Mapping[str, Any] | None
     state: str
     """waiting, sending, aboard, replaced, refused, failed, interrupted, cancelled, superseded or expired."""
+    until: float | None = None
+    """Until when it is tried, by the clock of the link [s]; None: that is not known."""
 
 
 class MissionState(NamedTuple):
@@ -48,24 +50,33 @@ class MissionRows:
     def __init__(self, archive: Archive) -> None:
         self._archive = archive
 
-    def add(self, row: MissionRow, words: str, preview: Mapping[str, Any] | None = None) -> MissionRow:
-        """Write a new mission, and return it with its number."""
+    def add(
+        self,
+        row: MissionRow,
+        words: str,
+        preview: Mapping[str, Any] | None = None,
+        ended: Mapping[int, MissionState] | None = None,
+    ) -> MissionRow:
+        """Write a new mission, and what becomes of those that it ends; return it with its number."""
         told = {
             "vehicle_id": row.vehicle, "t_us": microseconds(row.t), "user": row.user, "name": row.name,
             "sha256": row.sha256, "orders": row.orders, "plan": row.plan, "preview": preview, "state": row.state,
+            "until_us": None if row.until is None else microseconds(row.until),
         }  # fmt: skip
         with self._archive.writing() as connection:
             number = connection.execute(missions.insert().values(told).returning(missions.c.id)).scalar_one()
-            _note(connection, number, row.t, row.user, row.state, words)
+            _note(connection, number, MissionState(row.t, row.user, row.state, words))
+            _change_all(connection, ended or {})
         return row._replace(id=number)
 
     def change(self, id: int, state: str, words: str, t: float, user: str | None = None) -> None:
         """Write what became of a mission; the same state again is not noted again."""
+        self.change_all({id: MissionState(t, user, state, words)})
+
+    def change_all(self, states: Mapping[int, MissionState]) -> None:
+        """Write what became of missions, by their numbers, as `change` does, all or nothing."""
         with self._archive.writing() as connection:
-            before = connection.execute(select(missions.c.state).where(missions.c.id == id)).scalar_one_or_none()
-            if before is not None and before != state:
-                connection.execute(missions.update().where(missions.c.id == id).values(state=state))
-                _note(connection, id, t, user, state, words)
+            _change_all(connection, states)
 
     def find(self, vehicle: int, id: int) -> MissionRow | None:
         """A mission of a vehicle; None if there is none."""
@@ -117,12 +128,21 @@ class MissionRows:
         return None if row is None else _read(row)
 
 
-def _note(connection: Connection, id: int, t: float, user: str | None, state: str, words: str) -> None:
-    told = {"mission_id": id, "t_us": microseconds(t), "user": user, "state": state, "words": words}
+def _change_all(connection: Connection, states: Mapping[int, MissionState]) -> None:
+    for id, new in states.items():
+        before = connection.execute(select(missions.c.state).where(missions.c.id == id)).scalar_one_or_none()
+        if before is not None and before != new.state:
+            connection.execute(missions.update().where(missions.c.id == id).values(state=new.state))
+            _note(connection, id, new)
+
+
+def _note(connection: Connection, id: int, new: MissionState) -> None:
+    told = {"mission_id": id, "t_us": microseconds(new.t), "user": new.user, "state": new.state, "words": new.words}
     connection.execute(mission_history.insert().values(told))
 
 
 def _read(row: Any) -> MissionRow:
     return MissionRow(
-        row.id, row.vehicle_id, seconds(row.t_us), row.user, row.name, row.sha256, row.orders, row.plan, row.state
-    )
+        row.id, row.vehicle_id, seconds(row.t_us), row.user, row.name, row.sha256, row.orders, row.plan, row.state,
+        None if row.until_us is None else seconds(row.until_us),
+    )  # fmt: skip

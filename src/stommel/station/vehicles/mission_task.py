@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from math import inf
 from typing import NamedTuple
 
-from stommel.station.vehicles.mission_rows import MissionRow
+from stommel.station.vehicles.mission_rows import MissionRow, MissionState
 
 ASK_WITHIN = 600.0
 """Time within which the vehicle says which orders it holds [s]."""
@@ -24,6 +24,8 @@ class Task:
     within: float = ASK_WITHIN
     until: float = field(default=inf)
     """When its time is over, by the clock of the link [s]; an ask has its time when it begins."""
+    may_be_aboard: bool = False
+    """It was on its way when the station stopped, and the vehicle has not said since what it holds."""
 
     @property
     def is_of_people(self) -> bool:
@@ -46,3 +48,8 @@ class EndedTask(NamedTuple):
     """Who ended it."""
     t: float
     """By the vehicle's clock [s since 1970]."""
+
+    @property
+    def as_state(self) -> MissionState:
+        """As the archive has it."""
+        return MissionState(self.t, self.user, self.state, self.words)

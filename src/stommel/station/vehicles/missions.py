@@ -16,6 +16,7 @@ from stommel.station.vehicles.line import VehicleLine
 from stommel.station.vehicles.mission_follower import MissionFollower
 from stommel.station.vehicles.mission_rows import FAILED, OPEN, WAITING, MissionRow, MissionRows, MissionState
 from stommel.station.vehicles.mission_task import Task
+from stommel.station.vehicles.missions_left import taken_up
 from stommel.station.vehicles.opening import MissingError, VehicleError, vehicle_folder
 
 
@@ -41,7 +42,7 @@ class Missions:
     def follow(self, line: VehicleLine) -> None:
         """Take in a vehicle, before its line is started."""
         folder = vehicle_folder(line.folder, line.vehicle) / "orders"
-        left = self._rows.in_states(line.vehicle, *OPEN)
+        left = taken_up(self._rows.in_states(line.vehicle, *OPEN), line.clock.now())
         follower = self._followers[line.vehicle] = MissionFollower(self._rows, folder, self._tell, left)
         line.followers.append(follower)
 
@@ -65,19 +66,21 @@ class Missions:
             The text is no orders file.
         VehicleError
             The line is busy; the mission is kept as failed.
+        ArchiveError
+            It cannot be written; nothing was given.
         """
         _, header = parse_orders(orders, "orders")
         line, follower = self._lines[vehicle], self._followers[vehicle]
         sha256 = hashlib.sha256(orders.encode()).hexdigest()
         row = MissionRow(0, vehicle, line.clock.now(), user, header.mission, sha256, orders, plan, WAITING)
-        row = self._rows.add(row, "waits until the vehicle is heard at the surface", preview)
         try:
-            ask(line, lambda _end, t: follower.put(line, Task("upload", user, row, valid_for_s), t))
+            task = ask(line, lambda _end, t: follower.put(line, Task("upload", user, row, valid_for_s), t, preview))
         except VehicleError as error:
-            self._rows.change(row.id, FAILED, f"not sent: {error}", line.clock.now())
+            self._rows.add(row._replace(state=FAILED), f"not sent: {error}", preview)
             raise
-        self._tell(vehicle, row.id)
-        return row
+        assert task.row is not None
+        self._tell(vehicle, task.row.id)
+        return task.row
 
     def roll_back(self, vehicle: int, user: str, valid_for_s: float) -> None:
         """Let the vehicle hold the orders before its present ones.
@@ -86,6 +89,8 @@ class Missions:
         ------
         MissionError
             It holds none, or nobody knows yet.
+        ArchiveError
+            It cannot be written that others are replaced by this; they go on.
         """
         line, follower = self._lines[vehicle], self._followers[vehicle]
         if follower.held is None:
@@ -191,7 +196,7 @@ class Missions:
         found = row._asdict() | {"words": history[-1].words if history else ""}
         if history:
             found["state"] = history[-1].state
-        del found["orders"], found["plan"]
+        del found["orders"], found["plan"], found["until"]
         follower = self._followers.get(row.vehicle)
         mine = [each for each in (() if follower is None else follower.open) if each.row and each.row.id == row.id]
         is_open = mine and found["state"] in OPEN

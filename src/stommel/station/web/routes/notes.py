@@ -1,4 +1,4 @@
-"""The log book: notes of people, beside them what people did, alarms, and what the vehicle said."""
+"""The log book: notes of people, beside them dives, what people did, alarms, and what the vehicle said."""
 
 from typing import Annotated, Literal
 
@@ -8,11 +8,12 @@ from pydantic import BaseModel, ConfigDict, Field
 from stommel.archive.times import GREATEST_TIME
 from stommel.files.sentences import PRINTABLE
 from stommel.station.live.events import Happening
-from stommel.station.logbook.feed import CURSOR, SOURCES, page_of
+from stommel.station.logbook.feed import CURSOR, SOURCES, Entry, page_of
 from stommel.station.logbook.notes import Notes
 from stommel.station.web.access import Pilot, Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation, line_to
+from stommel.station.web.routes.data import Dive
 
 router = APIRouter(prefix="/api", tags=["log book"])
 
@@ -20,7 +21,7 @@ GREATEST_NUMBER = (1 << 53) - 1
 """Of a row; beyond it JSON's numbers are not exact."""
 _AHEAD = 60.0
 """A note may be of a time so far ahead, for two clocks never agree [s]."""
-Kind = Literal["alarm", "command", "hold", "limit", "mission", "note", "parameter", "text", "transfer"]
+Kind = Literal["alarm", "command", "dive", "hold", "limit", "mission", "note", "parameter", "text", "transfer"]
 Search = Annotated[str, Query(max_length=200, pattern=PRINTABLE, description="Words that must be in it.")]
 
 
@@ -60,6 +61,8 @@ class LogEntry(BaseModel):
     words: str
     state: str | None
     """What has become of it, or how bad it is by the vehicle; null of a note."""
+    dive: Dive | None
+    """Of a dive: what is known of it."""
 
 
 class LogPage(BaseModel):
@@ -108,6 +111,15 @@ def read_log(
     severity: Annotated[
         int, Query(ge=0, le=7, description="Of what the vehicle said, the mildest; MAVLink's: 0 emergency to 7 debug.")
     ] = 7,
+    until: Annotated[
+        float | None,
+        Query(
+            ge=0,
+            le=GREATEST_TIME,
+            allow_inf_nan=False,
+            description="Only what had happened by then, and dives as they were then [s since 1970].",
+        ),
+    ] = None,
     before: Annotated[
         str | None, Query(max_length=50, pattern=CURSOR, description="`next` of the page before.")
     ] = None,
@@ -115,10 +127,16 @@ def read_log(
 ) -> LogPage:
     """All of a vehicle in one list, the newest first, with the notes and alarms of the station.
 
-    Notes, commands, missions, parameters that were set, transfers, who held command, limits, alarms, its own words.
+    Notes, dives, commands, missions, parameters that were set, transfers, who held command, limits, alarms, its words.
+    What has become of each is told as it is known now, but for dives where `until` is given.
     """
     page = page_of(
-        station.archive, line.vehicle, kinds=kinds or tuple(SOURCES), search=search, severity=severity, before=before,
-        limit=limit,
+        station.archive, line.vehicle, kinds=kinds or tuple(SOURCES), search=search, severity=severity, until=until,
+        before=before, limit=limit,
     )  # fmt: skip
-    return LogPage(entries=[LogEntry(**entry._asdict()) for entry in page.entries], next=page.next)
+    return LogPage(entries=[_entry(entry) for entry in page.entries], next=page.next)
+
+
+def _entry(entry: Entry) -> LogEntry:
+    dive = None if entry.dive is None else Dive(**entry.dive._asdict())
+    return LogEntry(**entry._asdict() | {"dive": dive})

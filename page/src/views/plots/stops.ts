@@ -2,9 +2,7 @@
 
 import { onLine, onwards, type Step } from '../../lib/steps';
 import type { Line } from '../../lib/turns';
-
-/** The archive keeps whole microseconds: times that are nearer than that are one. */
-const SAME_S = 1.5e-6;
+import { SAME_S } from './traces';
 
 /** The times in a window at which any of some traces has a value, in their order. */
 export function stopsOf(traces: readonly (Line | undefined)[], begin: number, end: number): number[] {

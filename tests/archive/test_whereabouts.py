@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from stommel.archive import Archive, Batch, DiveRow
 from stommel.archive.schema import mission_history, missions
-from stommel.archive.whereabouts.dive_ends import with_true_ends
+from stommel.archive.whereabouts.dive_ends import made_good, with_true_ends
 from stommel.archive.whereabouts.sift import Places, believed
 from stommel.archive.whereabouts.span import span_of
 from stommel.archive.whereabouts.track import read_track
@@ -181,3 +181,14 @@ def test_ends_of_dives_are_sifted_too() -> None:
     assert reset == good._replace(latitude_begin=None, longitude_begin=None)
     leapt = with_true_ends(good._replace(latitude_end=31.0))
     assert [leapt.latitude_begin, leapt.longitude_begin, leapt.latitude_end, leapt.longitude_end] == [None] * 4
+
+
+def test_a_dive_makes_good_what_lies_between_its_ends() -> None:
+    """Oracle: lengths on WGS 84 of a minute of latitude and of longitude at 30 deg: 1847.54 m and 1608.11 m."""
+    north = made_good(DiveRow(1, T0, T0 + 3600.0, 30.0, 123.0, 30.0 + 1.0 / 60.0, 123.0))
+    assert north is not None
+    assert (north.distance_m, north.bearing_deg) == (pytest.approx(1847.54, abs=0.2), pytest.approx(0.0, abs=1e-6))
+    west = made_good(DiveRow(1, T0, T0 + 3600.0, 30.0, -180.0 + 1.0 / 120.0, 30.0, 180.0 - 1.0 / 120.0))
+    assert west is not None
+    assert (west.distance_m, west.bearing_deg) == (pytest.approx(1608.11, abs=0.2), pytest.approx(270.0, abs=0.01))
+    assert made_good(DiveRow(2, T0, T0 + 3600.0, 30.0, 123.0)) is None

@@ -70,6 +70,13 @@ def test_too_many_cells_are_refused() -> None:
         section(made([(n, 1.0, 2.0) for n in range(1, 50)]), "temperature", cell_m=0.1, deepest_m=11_000.0)
 
 
+def test_a_profile_over_the_date_line_lies_upon_it() -> None:
+    samples = made([(1, 1.0, 20.0), (1, 2.0, 20.0), (2, 3.0, 20.0), (2, 2.0, 20.0)])
+    samples["longitude"] = ("obs", np.array([179.99, -179.98, -179.98, np.nan]))
+    assert section(samples, "temperature")["longitude"].values == pytest.approx([-179.995, -179.98])
+    assert [row.longitude for row in profile_summaries(samples)] == pytest.approx([-179.995, -179.98])
+
+
 def test_summaries_tell_when_where_and_how_deep() -> None:
     rows = [(0, 0.0, 20.0), (1, 1.0, 20.0), (1, 30.0, 12.0), (0, 31.0, 11.0), (2, 29.0, 12.0), (2, 2.0, 19.0)]
     first, second = profile_summaries(made(rows))

@@ -10,8 +10,9 @@ from typing import Any
 import gsw
 import pytest
 import xarray as xr
+from pyproj import Geod
 
-from tests.page.past import DIVE, Past
+from tests.page.past import DIVE, EARTH_M, Past, values
 from tests.page.waiting import at_rest, comes_to_rest, until
 
 
@@ -34,7 +35,11 @@ def test_dives_stand_in_the_table_and_on_the_map(page: Any, past: Past, screensh
     expect(rows).to_have_count(whole_dives(past))
     first = rows.first.inner_text()
     assert "200" in first  # deepest
-    assert "900" in first  # distance: 0.25 m/s for an hour
+    north = values("latitude_deg", DIVE * (past.end // DIVE - 1.0))
+    north_end = north + 0.25 * DIVE / EARTH_M
+    assert f"{Geod(ellps='WGS84').inv(123.0, north, 123.0, north_end)[2]:.0f}\u202fm" in first
+    assert f"30°{60.0 * (north - 30.0):06.3f}′N 123°00.000′E" in first
+    assert f"30°{60.0 * (north_end - 30.0):06.3f}′N 123°00.000′E" in first
     assert "0.22" in first
     assert "063°" in first  # current: hypot(0.1, 0.2) towards atan2(0.2, 0.1)
     rows.first.click()
@@ -58,7 +63,8 @@ def test_profiles_are_shown_over_depth_with_values_at_the_pointer(page: Any, pas
     box = comes_to_rest(page, page.locator("figure .sheet").first.bounding_box)
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 0.4 * box["height"])
     expect(page.locator("figure").last.locator("figcaption span")).to_have_count(2)
-    depth = float(page.locator("output", has_text=" m").inner_text().split()[0])
+    said = page.locator(".profiles output").inner_text()
+    depth = float(re.search(r" at ([\d.]+) m, ", said).group(1))  # type: ignore[union-attr]
     warm = 24.0 - 14.0 / (1.0 + math.exp(-(depth - 45.0) / 12.0))
     for text in page.locator("figure").last.locator("figcaption span").all_inner_texts():
         assert float(text) == pytest.approx(warm, abs=1.5), "the nearest sample is within 5 m"
@@ -73,7 +79,7 @@ def test_a_section_tells_the_value_under_the_pointer(page: Any, past: Past, scre
     at_rest(page)
     box = comes_to_rest(page, page.locator(".sheet").bounding_box)
     page.mouse.move(box["x"] + 0.8 * box["width"], box["y"] + 0.6 * box["height"])
-    output, form = page.locator(".section output"), re.compile(r"([\d.]+) °C at (\d+) m")
+    output, form = page.locator(".section output"), re.compile(r"([\d.]+) °C at ([\d.]+) m")
     until(page, lambda: form.match(output.inner_text()))
     value, depth = (float(found) for found in form.match(output.inner_text()).groups())  # type: ignore[union-attr]
     warm = 24.0 - 14.0 / (1.0 + math.exp(-(depth - 45.0) / 12.0))

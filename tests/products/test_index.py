@@ -5,15 +5,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pyproj import Geod
 
 from stommel.archive import Archive, Batch, CtdRow
 from stommel.archive.ctd_reading import count_between
 from stommel.data.profiles import profiles_of
+from stommel.geometry.geodesics import lengths_along
 from stommel.products import index
 from stommel.products.index import ProfileIndex
 from stommel.products.record import SampleRecords
 
 BEGIN = 1_782_864_000.0
+WGS84_DEGREE_AT_30_5 = 110_860.0
+"""Length of the degree of latitude from 30 to 31 deg [m]."""
 
 
 def mission(seed: int, dives: int = 12) -> list[CtdRow]:
@@ -144,6 +148,34 @@ def test_a_section_of_very_many_profiles_shows_some(tmp_path: Path, monkeypatch:
         more = some["samples_in_cell"].values - expected_one["samples_in_cell"].values
         assert (more >= 0).all()
         assert (more.sum(axis=1) <= 1).all()
+
+
+def test_the_distance_along_the_track_does_not_depend_on_what_is_shown(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Oracle: geodesics through the places of all profiles; one without a place lies nowhere, and the way goes past."""
+    rows = mission(2)
+    places = [
+        (key, row.t, value)
+        for row in rows
+        for key, value in (
+            ("latitude_deg", 30.0 + 1e-3 * np.sin(row.t / 9e3)),
+            ("longitude_deg", 122.0 + row.t % 1e5 * 1e-6),
+        )
+    ]
+    with Archive.open(str(tmp_path / "a.sqlite")) as archive:
+        archive.store(1, Batch(samples=places, ctd=rows))
+        records = SampleRecords(archive)
+        lines = [found.line for found in records.profiles(1)]
+        there = [(line.longitude, line.latitude) for line in lines]
+        expected_m = [Geod(ellps="WGS84").line_length(*zip(*there[: k + 1], strict=True)) for k in range(len(there))]
+        whole, _ = records.section(1, "temperature", 0.0, 4e9, 1.0)
+        assert whole["distance"].values == pytest.approx(expected_m)
+        monkeypatch.setattr("stommel.products.record.MOST_COLUMNS", 5)
+        some, stride = records.section(1, "temperature", 0.0, 4e9, 1.0)
+        assert some["distance"].values == pytest.approx(expected_m[::stride])
+    nowhere = lengths_along(np.array([30.0, np.nan, 31.0]), np.array([122.0, 122.0, 122.0]))
+    assert nowhere == pytest.approx([0.0, np.nan, WGS84_DEGREE_AT_30_5], rel=1e-4, nan_ok=True)
 
 
 def test_pieces_hold_each_sample_once_with_its_profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

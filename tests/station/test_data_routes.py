@@ -9,6 +9,7 @@ import gsw
 import numpy as np
 import pytest
 import xarray as xr
+from pyproj import Geod
 
 from stommel.archive.rows import Batch, CtdRow, DiveRow
 from tests.station.client import Client
@@ -17,6 +18,7 @@ from tests.station.stations import station
 BEGIN = 1_782_864_000.0
 SECOND = 1_782_867_000.000003
 """Begin of the second dive: 50 min after the first, and a little."""
+WGS84 = Geod(ellps="WGS84")
 SILENT = "tcp:127.0.0.1:9"
 """Nobody listens at the port `discard`."""
 
@@ -51,6 +53,12 @@ def test_dives_as_they_were_told(client: Client) -> None:
     assert (first["greatest_depth_m"], first["current_east_m_s"], first["energy_j"]) == (59.7, -0.2, 900.0)
     assert second["t_end"] is None
     assert client.get("/vehicles/1/dives", begin=BEGIN + 1.0)[0]["dive"] == 2
+
+
+def test_a_dive_tells_how_far_it_came_on_the_ellipsoid(client: Client) -> None:
+    first, second = client.get("/vehicles/1/dives")
+    assert first["distance_m"] == pytest.approx(WGS84.inv(126.0, 28.0, 126.0, 28.01)[2])
+    assert second["distance_m"] is None
 
 
 def test_a_time_that_was_told_finds_what_it_was_told_of(client: Client) -> None:
@@ -100,6 +108,19 @@ def test_a_section_shows_the_layers(client: Client) -> None:
         assert values[(depth < 25.0) & np.isfinite(values)] == pytest.approx(25.0)
         assert values[(depth > 35.0) & np.isfinite(values)] == pytest.approx(15.0)
     assert np.isnan([np.nan if value is None else value for value in found["values"][2]][-1])  # 40 m, not 60
+
+
+def test_a_section_tells_how_far_along_the_track_and_of_how_many_samples(client: Client) -> None:
+    """Oracles: geodesics through the mean places of the profiles, over the date line; the samples of each profile."""
+    found = client.get("/vehicles/1/section", variable="temperature", cell_m=5.0)
+    lines = client.get("/vehicles/1/profiles")
+    places = [(row["longitude"], row["latitude"]) for row in lines]
+    for k, column in enumerate(found["profiles"]):
+        assert column["distance"] == pytest.approx(WGS84.line_length(*zip(*places[: k + 1], strict=True)), abs=1e-6)
+    assert 0.0 < found["profiles"][-1]["distance"] < 5000.0  # it swam 0.0375 degrees to the north, at most
+    for line, counts, means in zip(lines, found["samples"], found["values"], strict=True):
+        assert sum(counts) == pytest.approx(line["samples"], abs=1)  # the last of one may be the first of the next
+        assert [count > 0 for count in counts] == [mean is not None for mean in means]
 
 
 def test_a_ts_diagram_has_two_water_masses_and_lines_between(client: Client) -> None:

@@ -204,6 +204,7 @@ export interface components {
             current_north_m_s: number | null;
             current_east_m_s: number | null;
             energy_j: number | null;
+            distance_m: number | null;
         };
         DiveDifference: {
             end_s: number | null;
@@ -839,6 +840,7 @@ export interface components {
             depth_m: number[];
             profiles: components["schemas"]["SectionColumn"][];
             values: (number | null)[][];
+            samples: number[][];
         };
         SectionColumn: {
             profile_number: number;
@@ -846,6 +848,7 @@ export interface components {
             time: number;
             latitude: number | null;
             longitude: number | null;
+            distance: number | null;
         };
         Sentence: {
             t: number;

@@ -15,6 +15,12 @@ export function counted(count: number, thing: string): string {
   return `${digits} ${thing}${count === 1 ? '' : 's'}`;
 }
 
+/** 1st, 2nd, 3rd, 4th ... */
+export function ordinal(count: number): string {
+  const isTeen = Math.floor((count % 100) / 10) === 1;
+  return `${count}${(isTeen ? undefined : ['th', 'st', 'nd', 'rd'][count % 10]) ?? 'th'}`;
+}
+
 /** Digits after the point that a value of this size deserves. */
 export function digitsFor(value: number, unit = ''): number {
   const size = Math.abs(value);

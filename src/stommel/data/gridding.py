@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from stommel.data.profiles import seconds
 from stommel.data.variables import BY_NAME
+from stommel.geometry.longitudes import all_wrapped_deg, continued_deg
 
 MOST_CELLS = 4_000_000
 Array = NDArray[np.float64]
@@ -105,7 +106,12 @@ def _of_profiles(samples: xr.Dataset, number: NDArray[np.int32], profiles: NDArr
         "profile_number": ("profile", profiles, {"long_name": "number of the profile"}),
         "profile_direction": ("profile", samples["profile_direction"].values[first], {"long_name": "1 down, -1 up"}),
     }
-    for name in ("latitude", "longitude"):
-        if name in samples:
-            found[name] = ("profile", mean(samples[name].values.astype(np.float64)), BY_NAME[name].attributes)
+    if "latitude" in samples:
+        latitude = samples["latitude"].values.astype(np.float64)
+        found["latitude"] = ("profile", mean(latitude), BY_NAME["latitude"].attributes)
+    if "longitude" in samples:
+        longitude = samples["longitude"].values.astype(np.float64)
+        is_known = np.isfinite(longitude)
+        longitude[is_known] = continued_deg(longitude[is_known])
+        found["longitude"] = ("profile", all_wrapped_deg(mean(longitude)), BY_NAME["longitude"].attributes)
     return found

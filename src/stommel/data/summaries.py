@@ -8,6 +8,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from stommel.data.profiles import seconds
+from stommel.geometry.longitudes import mean_deg
 
 Array = NDArray[Any]
 
@@ -57,17 +58,13 @@ def profile_summaries(samples: xr.Dataset) -> list[ProfileSummary]:
                 float(time[part].max()),
                 int(part.size),
                 int(dive[0]) if dive.size and dive[0] > 0 else None,
-                _mean(columns["latitude"][part]),
-                _mean(columns["longitude"][part]),
+                _known(columns["latitude"][part], np.mean),
+                _known(columns["longitude"][part], mean_deg),
                 _known(depth, np.min),
                 _known(depth, np.max),
             )
         )
     return found
-
-
-def _mean(values: Array) -> float | None:
-    return _known(values, np.mean)
 
 
 def _known(values: Array, of: Callable[[Array], Any]) -> float | None:

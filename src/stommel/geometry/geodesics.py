@@ -61,6 +61,18 @@ def line_length(latitude_deg: Array, longitude_deg: Array) -> float:
     return float(_WGS84.line_length(longitude_deg, latitude_deg))
 
 
+def lengths_along(latitude_deg: Array, longitude_deg: Array) -> Array:
+    """How far along the way through many places each of them lies, from the first [m].
+
+    A place that is not a number lies nowhere, and the way goes past it.
+    """
+    known = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
+    found = np.full(np.shape(latitude_deg), np.nan)
+    steps = _WGS84.line_lengths(longitude_deg[known], latitude_deg[known])
+    found[known] = np.concatenate([[0.0], np.cumsum(steps)])[: known.sum()]
+    return found
+
+
 def beside_line(latitude_deg: Array, longitude_deg: Array, start: Place, end: Place) -> Array:
     """Distance of many places from the rhumb line from `start` to `end` and beyond, positive to starboard [m].
 

@@ -11,6 +11,7 @@ from stommel.archive.ctd_reading import CtdPiece, changes_since, ctd_pieces
 from stommel.archive.times import GREATEST_TIME
 from stommel.data.profiles import ways_of
 from stommel.data.summaries import ProfileSummary
+from stommel.geometry.longitudes import mean_deg
 from stommel.products.kept_profiles import Found, keep, kept
 from stommel.products.positions import positions
 
@@ -101,7 +102,7 @@ class ProfileIndex:
             inside = slice(first, last + 1)
             line = ProfileSummary(
                 0, direction, float(time[first]), float(time[last]), last + 1 - first, _dive(piece.dive[first]),
-                _mean(latitude[inside]), _mean(longitude[inside]), *_extremes(depth[inside]),
+                _mean(latitude[inside]), _mean_longitude(longitude[inside]), *_extremes(depth[inside]),
             )  # fmt: skip
             found.append(
                 Found(int(piece.t_us[first]), int(piece.t_us[last]), int(piece.t_us[way.turned]), way.is_settled, line)
@@ -123,9 +124,13 @@ def _dive(value: float) -> int | None:
 
 
 def _mean(values: Array) -> float | None:
-    """Mean, also of longitudes: the positions of one profile lie close together, on both sides of 180 deg or not."""
     known = values[np.isfinite(values)]
     return float(known.mean()) if known.size else None
+
+
+def _mean_longitude(values: Array) -> float | None:
+    known = values[np.isfinite(values)]
+    return mean_deg(known) if known.size else None
 
 
 def _extremes(values: Array) -> tuple[float | None, float | None]:

@@ -7,6 +7,7 @@ from stommel.archive.archive import Archive
 from stommel.archive.cells import LEVELS
 from stommel.archive.whereabouts.sift import believed
 from stommel.archive.whereabouts.told import told_places
+from stommel.geometry.longitudes import all_wrapped_deg, continued_deg
 
 FARTHEST = 7200.0
 """Time from a sample to a position, over which none is made up [s]."""
@@ -26,8 +27,7 @@ def positions(archive: Archive, vehicle: int, time: Array) -> tuple[Array, Array
     if not known.t.size:
         return np.full(time.size, np.nan), np.full(time.size, np.nan)
     latitude = np.interp(time, known.t, known.latitude)
-    unwrapped = np.unwrap(known.longitude, period=360.0)  # over the date line
-    longitude = (np.interp(time, known.t, unwrapped) + 180.0) % 360.0 - 180.0
+    longitude = all_wrapped_deg(np.interp(time, known.t, continued_deg(known.longitude)))
     after = np.clip(np.searchsorted(known.t, time), 0, known.t.size - 1)
     nearest = np.minimum(np.abs(known.t[after] - time), np.abs(known.t[np.maximum(after - 1, 0)] - time))
     far = nearest > FARTHEST

@@ -5,6 +5,7 @@ from collections import defaultdict
 from collections.abc import Collection, Iterator, Sequence
 from threading import Lock
 
+import numpy as np
 import xarray as xr
 
 from stommel.archive.archive import Archive
@@ -14,6 +15,7 @@ from stommel.data.derived import DERIVED
 from stommel.data.gridding import MOST_CELLS, joined, section
 from stommel.data.profiles import with_numbers
 from stommel.data.summaries import ProfileSummary
+from stommel.geometry.geodesics import lengths_along
 from stommel.products.index import ProfileIndex
 from stommel.products.kept_profiles import Found
 from stommel.products.samples import samples_of
@@ -80,6 +82,8 @@ class SampleRecords:
     def section(self, vehicle: int, variable: str, begin: float, end: float, cell_m: float) -> tuple[xr.Dataset, int]:
         """A variable in cells of depth between two times [s since 1970], and of how many profiles one is shown.
 
+        `distance` tells how far along the track each lies: through the mean positions of all profiles, shown or not.
+
         Raises
         ------
         ValueError
@@ -100,7 +104,7 @@ class SampleRecords:
             for group in _groups(chosen)
             for samples in [self._of_group(vehicle, first, last, group, wanted, whole=stride == 1)]
         ]
-        return joined(made), stride
+        return _along_track(joined(made), found), stride
 
     def _of_group(
         self, vehicle: int, first: int, last: int, group: Sequence[Found], wanted: Collection[str], *, whole: bool
@@ -135,6 +139,15 @@ class SampleRecords:
 
 def _numbered(found: Sequence[Found]) -> list[tuple[int, int, float, float]]:
     return [(one.line.number, one.line.direction, seconds(one.first_us), seconds(one.last_us)) for one in found]
+
+
+def _along_track(columns: xr.Dataset, found: Sequence[Found]) -> xr.Dataset:
+    """Columns of a section with their distance along the track from the first of the profiles [m]."""
+    places = np.array([(one.line.latitude, one.line.longitude) for one in found], dtype=np.float64).reshape(-1, 2)
+    along = dict(zip((one.line.number for one in found), lengths_along(*places.T), strict=True))
+    distance = [along[number] for number in columns["profile_number"].values.tolist()]
+    about = {"long_name": "distance along the track", "units": "m"}
+    return columns.assign(distance=("profile", np.array(distance, dtype=np.float64), about))
 
 
 def _groups(found: Sequence[Found]) -> Iterator[Sequence[Found]]:

@@ -48,7 +48,7 @@ def test_speed_made_good_is_the_way_between_the_ends_of_the_last_dive_by_its_tim
     assert summary_of(known(dives=(way, later)))["speed_made_good"] == found
     over = way._replace(latitude_end=30.0, longitude_begin=179.99, longitude_end=-179.99)
     found = summary_of(known(dives=(over,)))["speed_made_good"]
-    assert found["course_deg"] == pytest.approx(90.0)
+    assert found["course_deg"] == pytest.approx(90.0, abs=0.01)  # where it begins: a geodesic bends towards the pole
     assert found["m_s"] == pytest.approx(0.02 * 96_486 / 6000, rel=1e-3)  # a degree of longitude at 30 deg: 96 486 m
 
 

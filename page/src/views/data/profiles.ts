@@ -1,19 +1,21 @@
 // Profiles as lines over depth.
 
 import type { ProfileAnswer } from './answers';
-import { line, type Pen } from './sheet';
+import type { Spot } from '../../lib/steps';
+import type { Cast } from './casts';
+import type { Axis, Pen } from './sheet';
 
 export interface DrawnProfile {
-  readonly answer: ProfileAnswer | undefined;
+  readonly answer: ProfileAnswer;
   readonly colour: string;
 }
 
-export function drawProfiles(it: Pen, profiles: readonly DrawnProfile[], key: string, depth: number | null): void {
-  const { context, box } = it;
+export function drawProfiles(it: Pen, profiles: readonly DrawnProfile[], key: string): void {
+  const { context } = it;
   context.lineWidth = 1.5;
   for (const { answer, colour } of profiles) {
-    const values = answer?.values[key];
-    const depths = answer?.values['depth'];
+    const values = answer.values[key];
+    const depths = answer.values['depth'];
     if (!values || !depths) continue;
     context.strokeStyle = colour;
     context.beginPath();
@@ -30,12 +32,22 @@ export function drawProfiles(it: Pen, profiles: readonly DrawnProfile[], key: st
     });
     context.stroke();
   }
-  if (depth === null) return;
-  context.strokeStyle = it.ink.faint;
-  context.lineWidth = 1;
-  context.setLineDash([3, 3]);
-  line(context, box.left, it.y(depth), box.left + box.width, it.y(depth));
-  context.setLineDash([]);
+}
+
+/** The sample nearest to a place of the paper, both axes counted by their spans; null where there is none. */
+export function spotNear(
+  casts: readonly Cast[], values: (column: number) => readonly (number | null)[], x: Axis, y: Axis, at: { x: number; y: number },
+): Spot | null {
+  let found: Spot | null = null;
+  let least = Infinity;
+  casts.forEach((cast, column) => {
+    const those = values(column);
+    cast.samples.forEach((sample, row) => {
+      const far = Math.hypot(((those[sample] ?? NaN) - at.x) / (x.high - x.low), ((cast.depth[row] ?? NaN) - at.y) / (y.high - y.low));
+      if (far < least) [found, least] = [{ column, row }, far];
+    });
+  });
+  return found;
 }
 
 /** The value of the sample nearest to a depth; null where the profile does not reach it. */

@@ -76,14 +76,16 @@ export function valueAt(axis: Axis, place: number, isVertical: boolean): number 
   return axis.low + part * (axis.high - axis.low);
 }
 
-export function pen(context: CanvasRenderingContext2D, box: Box, x: Axis, y: Axis, ink: SheetInk): Pen {
+/** Where values lie on the paper, px. */
+export function placing(box: Box, x: Axis, y: Axis): Pick<Pen, 'x' | 'y'> {
   return {
-    context,
-    box,
-    ink,
     x: (value) => box.left + share(x, value, false) * box.width,
     y: (value) => box.top + share(y, value, true) * box.height,
   };
+}
+
+export function pen(context: CanvasRenderingContext2D, box: Box, x: Axis, y: Axis, ink: SheetInk): Pen {
+  return { context, box, ink, ...placing(box, x, y) };
 }
 
 export interface Tick {

@@ -69,11 +69,11 @@ export function drawSamples(it: Pen, answer: DiagramAnswer, depth: [number, numb
   it.context.globalAlpha = 1;
 }
 
-/** The sample nearest to a place of the diagram, both axes counted by their spans; -1 where none is near. */
-export function sampleNear(answer: DiagramAnswer, diagram: Diagram, at: { x: number; y: number }): number {
+/** The sample nearest to a place of the diagram, both axes counted by their spans; null where none is near. */
+export function sampleNear(answer: DiagramAnswer, diagram: Diagram, at: { x: number; y: number }): number | null {
   const across = diagram.x.high - diagram.x.low;
   const up = diagram.y.high - diagram.y.low;
-  let found = -1;
+  let found: number | null = null;
   let least = 0.03;
   answer.absolute_salinity.forEach((salinity, index) => {
     const far = Math.hypot((salinity - at.x) / across, ((answer.conservative_temperature[index] ?? NaN) - at.y) / up);

@@ -37,7 +37,8 @@ export interface ChartSettings {
   readonly around: Around | null;
   shown(): Interval;
   onSelect(begin: number, end: number): void;
-  onCursor(t: number | null): void;
+  /** Where the cursor is, and whether the pointer has moved it there: a window that moves does so too. */
+  onCursor(t: number | null, isMoved: boolean): void;
   onDoubleClick(): void;
 }
 
@@ -121,7 +122,7 @@ function options(settings: ChartSettings): uPlot.Options {
     hooks: {
       drawClear: [setWidths, (plot) => drawLimits(plot, settings)],
       setSelect: [(plot) => takeSelection(plot, settings)],
-      setCursor: [(plot) => takeCursor(plot, settings)],
+      setCursor: [cursorTaker(settings)],
     },
   };
 }
@@ -204,9 +205,21 @@ function takeSelection(plot: uPlot, settings: ChartSettings): void {
   settings.onSelect(begin, end);
 }
 
-function takeCursor(plot: uPlot, settings: ChartSettings): void {
-  const left = plot.cursor.left;
-  settings.onCursor(left === undefined || left < 0 ? null : plot.posToVal(left, 'x'));
+function cursorTaker(settings: ChartSettings): (plot: uPlot) => void {
+  let before: MouseEvent | null | undefined;
+  return (plot) => {
+    const { left, event } = plot.cursor;
+    settings.onCursor(left === undefined || left < 0 ? null : plot.posToVal(left, 'x'), Boolean(event) && event !== before);
+    before = event;
+  };
+}
+
+/** The line at a time, or none, on this plot alone. */
+export function showCursor(plot: uPlot, t: number | null, { begin, end }: Interval): void {
+  const isShown = t !== null && t >= begin && t <= end;
+  if (!isShown && (plot.cursor.left ?? -1) < 0) return;
+  const left = isShown ? ((t - begin) / (end - begin)) * plot.over.clientWidth : -10;
+  plot.setCursor({ left, top: isShown ? 0 : -10 }, false);
 }
 
 /**

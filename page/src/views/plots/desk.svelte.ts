@@ -1,5 +1,6 @@
 // What all plots of a view share: window, traces, cursor, and the way back.
 
+import { Cursor } from '../../lib/cursor.svelte';
 import { ArchiveQuery, type Question } from './archive_query';
 import type { LiveListener, PlotSource, Samples } from './source';
 import { extended, gapAfter, type Trace, type Traces } from './traces';
@@ -11,16 +12,19 @@ const ASK_AGAIN_MS = 30_000;
 const SETTLED_MS = 1500;
 const WAYS_BACK = 50;
 const PENDING_LIMIT = 20_000;
+/** Where the cursor stands after the window has gone on beneath it, as a share of the width from where it came. */
+const GONE_ON = 0.25;
 
 export class Desk {
   window = $state.raw<TimeWindow>(live(3600));
   shown = $state.raw<Interval>({ begin: 0, end: 1 });
   traces = $state.raw<Traces>(new Map());
-  cursor = $state.raw<number | null>(null);
   isBusy = $state(false);
   failure = $state<string | null>(null);
   /** The question whose answer is drawn. */
   answered = $state.raw<Question | null>(null);
+  /** Of all panels: a time. */
+  readonly cursor = new Cursor<number>();
 
   #channels: readonly string[] = [];
   #points = 2000;
@@ -82,6 +86,14 @@ export class Desk {
     const isAtPresent = this.window.kind === 'live' && (shareOfWidth === undefined || shareOfWidth > 0.9);
     const about = isAtPresent ? undefined : begin + (shareOfWidth ?? 0.5) * (end - begin);
     this.show(zoomed(this.window, factor, this.source.now(), about), this.window.kind === 'live');
+  }
+
+  /** Goes on beneath a time that has come to an edge: earlier (-1), or later (1) unless it follows. */
+  goOn(t: number, by: 1 | -1): void {
+    if (by > 0 && this.window.kind === 'live') return;
+    const { begin, end } = this.shown;
+    const share = (t - begin) / (end - begin) - (by > 0 ? GONE_ON : 1 - GONE_ON);
+    if (share * by > 0.01) this.pan(share);
   }
 
   select(begin: number, end: number): void {

@@ -42,7 +42,7 @@ export function gapAfter(period_s: number | null | undefined): number {
 }
 
 /** The archive keeps whole microseconds: times that are nearer than that are one. */
-const SAME_S = 1.5e-6;
+export const SAME_S = 1.5e-6;
 
 /** The trace with later samples behind it; a null between two that are too far apart; older ones than begin fall off. */
 export function extended(

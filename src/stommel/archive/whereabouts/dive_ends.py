@@ -1,9 +1,10 @@
-"""The ends of dives, of those that can be true."""
+"""The ends of dives, of those that can be true, and what lies between them."""
 
 import numpy as np
 
 from stommel.archive.rows import DiveRow
 from stommel.archive.whereabouts.sift import ANYWAY, CERTAIN, FASTEST, SIGMA, is_nowhere, metres_apart
+from stommel.geometry.geodesics import Leg, leg
 
 
 def with_true_ends(dive: DiveRow) -> DiveRow:
@@ -18,6 +19,14 @@ def with_true_ends(dive: DiveRow) -> DiveRow:
     if "begin" in wrong:
         dive = dive._replace(latitude_begin=None, longitude_begin=None)
     return dive._replace(latitude_end=None, longitude_end=None) if "end" in wrong else dive
+
+
+def made_good(dive: DiveRow) -> Leg | None:
+    """Distance and course from where a dive began to where it ended; None where one of them is not known."""
+    begin, end = (dive.latitude_begin, dive.longitude_begin), (dive.latitude_end, dive.longitude_end)
+    if begin[0] is None or begin[1] is None or end[0] is None or end[1] is None:
+        return None
+    return leg(begin[0], begin[1], end[0], end[1])
 
 
 def _is_nowhere(latitude: float, longitude: float) -> bool:

@@ -5,10 +5,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
 from stommel.archive import DiveRow
-from stommel.archive.whereabouts.dive_ends import with_true_ends
-from stommel.compilation import plain
+from stommel.archive.whereabouts.dive_ends import made_good, with_true_ends
 from stommel.control.dive_cycle import PHASES, RECOVERY, SURFACE
-from stommel.geometry.earth import metres_per_radian
 from stommel.messages.mavlink import entry_words
 from stommel.station.vehicles.whereabouts import Told, position_of
 
@@ -210,16 +208,11 @@ def _next_surfacing(known: Known, phase: str | None, missing: dict[str, str]) ->
 
 def _speed_made_good(dives: Sequence[DiveRow], missing: dict[str, str]) -> dict[str, Any] | None:
     for dive in map(with_true_ends, reversed(dives)):
-        places = (dive.latitude_begin, dive.longitude_begin, dive.latitude_end, dive.longitude_end)
-        if _duration(dive) <= 0.0 or any(place is None for place in places):
+        way = made_good(dive)
+        if way is None or _duration(dive) <= 0.0:
             continue
-        latitude, longitude, latitude_end, longitude_end = (math.radians(place or 0.0) for place in places)
-        m_north, m_east = plain(metres_per_radian)(0.5 * (latitude + latitude_end))
-        north = m_north * (latitude_end - latitude)
-        east = m_east * math.remainder(longitude_end - longitude, math.tau)
-        course = math.degrees(math.atan2(east, north)) % 360.0
-        speed = math.hypot(north, east) / _duration(dive)
-        return {"m_s": speed, "course_deg": course, "dive": dive.dive, "t": _end(dive)}
+        speed = way.distance_m / _duration(dive)
+        return {"m_s": speed, "course_deg": way.bearing_deg, "dive": dive.dive, "t": _end(dive)}
     missing["speed_made_good"] = "no dive has ended yet with a position at both ends"
     return None
 

@@ -17,9 +17,10 @@ from starlette.background import BackgroundTask
 
 from stommel.archive import schema
 from stommel.archive.readers import dive_of
+from stommel.archive.rows import DiveRow
 from stommel.archive.times import GREATEST_TIME as LATEST
 from stommel.archive.times import microseconds
-from stommel.archive.whereabouts.dive_ends import with_true_ends
+from stommel.archive.whereabouts.dive_ends import made_good, with_true_ends
 from stommel.data.files import csv_of_pieces, write_netcdf_pieces
 from stommel.data.variables import BY_NAME
 from stommel.data.water_masses import density_lines
@@ -76,6 +77,8 @@ class Dive(BaseModel):
     current_north_m_s: float | None
     current_east_m_s: float | None
     energy_j: float | None
+    distance_m: float | None
+    """Made good: between its ends, on the ellipsoid [m]."""
 
 
 class ProfileLine(BaseModel):
@@ -116,6 +119,8 @@ class SectionColumn(BaseModel):
     """Mean [s since 1970]."""
     latitude: float | None
     longitude: float | None
+    distance: float | None
+    """Along the track from the first profile of the stretch of time [m]; null where its place is not known."""
 
 
 class Section(BaseModel):
@@ -126,12 +131,14 @@ class Section(BaseModel):
     unit: str
     cell_m: float
     stride: int
-    """Of so many profiles one is shown."""
+    """Of so many profiles one is shown, at regular steps."""
     depth_m: list[float]
     """Middles of the cells."""
     profiles: list[SectionColumn]
     values: list[list[float | None]]
-    """By profile, then depth."""
+    """Means, by profile, then depth."""
+    samples: list[list[int]]
+    """Of how many samples each is the mean."""
 
 
 class DensityLine(BaseModel):
@@ -165,7 +172,12 @@ def read_dives(line: Line, station: TheStation, _user: Viewer, begin: Begin = 0.
             .where((d.vehicle_id == line.vehicle) & d.t_begin_us.between(microseconds(begin), microseconds(end)))
             .order_by(d.t_begin_us)
         )
-        return [Dive(**with_true_ends(dive_of(row))._asdict()) for row in rows]
+        return [_dive(with_true_ends(dive_of(row))) for row in rows]
+
+
+def _dive(row: DiveRow) -> Dive:
+    way = made_good(row)
+    return Dive(**row._asdict(), distance_m=None if way is None else way.distance_m)
 
 
 @router.get("/vehicles/{vehicle}/profiles", dependencies=[InOrder])
@@ -221,6 +233,7 @@ def read_section(
             for row in zip(*columns.values(), strict=True)
         ],
         values=[_plain(row) for row in made[variable].values],
+        samples=made["samples_in_cell"].values.tolist(),
     )
 
 

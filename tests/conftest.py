@@ -6,6 +6,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
+import hypothesis
 import pytest
 
 from stommel.design.study import DesignStudy, design_study
@@ -13,6 +14,10 @@ from stommel.report import report_html
 from stommel.vehicle import Vehicle, load_vehicle
 from tests.support.command import Command, run_here, run_process
 from tests.support.shared_data import shared_data
+
+# the same examples in each run, and none too slow for a busy machine; `--hypothesis-profile default` draws others
+hypothesis.settings.register_profile("same", deadline=None, derandomize=True)
+hypothesis.settings.load_profile("same")
 
 TOGETHER = {
     "page": ("tests/page/",),

@@ -6,6 +6,8 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 
 PAGE := src/stommel/station/built/index.html
 PAGE_SOURCES := $(shell find page -name node_modules -prune -o -type f -print)
+REPORT := build/zju-design.html
+REPORT_SOURCES := $(shell find src/stommel -path src/stommel/station/built -prune -o -name __pycache__ -prune -o -type f -print)
 
 .PHONY: help setup page page-check types run test check format bench docs dist clean
 
@@ -57,9 +59,13 @@ page: $(PAGE)
 types: page/node_modules/.package-lock.json
 	$(BIN)/python page/npm.py run --silent types
 
+# the same sources make the same report
+$(REPORT): $(VENV)/run.stamp $(REPORT_SOURCES)
+	$(BIN)/stommel design zju --output $@
+
 # each launch is a flight of its own, with an archive of its own
-run: $(VENV)/run.stamp $(PAGE)
-	$(BIN)/stommel design zju --output build/zju-design.html
+run: $(VENV)/run.stamp $(PAGE) $(REPORT)
+	@echo "the design report of the paper's glider: $(REPORT)"
 	@echo "launching the glider of that design in a simulated East China Sea, 20 times real time"
 	@exec $(BIN)/stommel station --sitl east_china_sea --speed 20 --folder build/flights/$$(date -u +%Y%m%dT%H%M%SZ)
 

@@ -32,18 +32,19 @@ def test_dives_are_aligned_by_their_numbers_in_the_mission() -> None:
 
 
 def test_differences_are_flown_less_predicted() -> None:
-    ((_, _, _, found, _),) = compared(
+    ((_, _, _, found, *ways),) = compared(
         [dive(1, 0.0)], [dive(1, 5.0, longitude_end=126.12, greatest_depth_m=70.5, energy_j=4400.0)], begin=0.0
     )
     assert found is not None
     _, _, away = Geod(ellps="WGS84").inv(126.1, 28.7, 126.12, 28.7)
     assert found.distance_m == pytest.approx(away, rel=1e-9)
+    assert ways == [0.0, pytest.approx(away, rel=1e-9), None]
     assert (found.depth_m, found.energy_j) == (2.5, -100.0)
 
 
 def test_what_is_not_known_has_no_difference() -> None:
     """Oracle: the report that it is about: spray_pilot#39, a value that is missing is empty and not zero."""
-    ((_, _, _, found, _),) = compared(
+    ((_, _, _, found, *_),) = compared(
         [dive(1, 0.0)], [dive(1, 5.0, t_end=None, latitude_end=None, energy_j=None)], begin=0.0
     )
     assert found is not None

@@ -30,6 +30,9 @@ class ComparedDive(NamedTuple):
     flown: Row | None
     difference: Difference | None
     """None where there is only one of them."""
+    predicted_way_m: float | None
+    flown_way_m: float | None
+    """From where it began to where it ended, straight over ground."""
     off_track_m: float | None
     """How far the flown one ended from the nearest point of the predicted track; None where that is not known."""
 
@@ -56,44 +59,46 @@ def compared(
     theirs = {int(row["dive"]): row for row in predicted}
     ours = {int(row["dive"]) - before: row for row in mine}
     numbers = sorted({*theirs, *ours})
-    ends = [place_of(ours.get(number), "end") for number in numbers]
+    ends = [_place(ours.get(number), "end") for number in numbers]
     off = [None] * len(numbers) if track is None else track.off(ends)
-    return [
-        ComparedDive(
-            number, theirs.get(number), ours.get(number), _difference(theirs.get(number), ours.get(number)), far
-        )
-        for number, far in zip(numbers, off, strict=True)
-    ]
+    return [_row(number, theirs.get(number), ours.get(number), far) for number, far in zip(numbers, off, strict=True)]
 
 
-def place_of(row: Row | None, side: str) -> Place | None:
+def _row(number: int, predicted: Row | None, flown: Row | None, off_track_m: float | None) -> ComparedDive:
+    difference = None if predicted is None or flown is None else _difference(predicted, flown)
+    return ComparedDive(number, predicted, flown, difference, _way(predicted), _way(flown), off_track_m)
+
+
+def _place(row: Row | None, side: str) -> Place | None:
     """Where a dive has its `begin` or `end`; None where that is not known."""
     if row is None or row.get(f"latitude_{side}") is None or row.get(f"longitude_{side}") is None:
         return None
     return Place(float(row[f"latitude_{side}"]), float(row[f"longitude_{side}"]))
 
 
-def way_between(one: Place | None, other: Place | None) -> float | None:
+def _distance(one: Place | None, other: Place | None) -> float | None:
     """Distance of two places [m]; None where one is not known."""
     return None if one is None or other is None else leg(*one, *other).distance_m
 
 
-def _difference(predicted: Row | None, flown: Row | None) -> Difference | None:
-    if predicted is None or flown is None:
-        return None
+def _way(row: Row | None) -> float | None:
+    return _distance(_place(row, "begin"), _place(row, "end"))
+
+
+def _difference(predicted: Row, flown: Row) -> Difference:
     return Difference(
-        end_s=less(flown.get("t_end"), predicted.get("t_end")),
-        duration_s=less(_duration(flown), _duration(predicted)),
-        distance_m=way_between(place_of(predicted, "end"), place_of(flown, "end")),
-        depth_m=less(flown.get("greatest_depth_m"), predicted.get("greatest_depth_m")),
-        energy_j=less(flown.get("energy_j"), predicted.get("energy_j")),
+        end_s=_less(flown.get("t_end"), predicted.get("t_end")),
+        duration_s=_less(_duration(flown), _duration(predicted)),
+        distance_m=_distance(_place(predicted, "end"), _place(flown, "end")),
+        depth_m=_less(flown.get("greatest_depth_m"), predicted.get("greatest_depth_m")),
+        energy_j=_less(flown.get("energy_j"), predicted.get("energy_j")),
     )
 
 
 def _duration(row: Row) -> float | None:
-    return less(row.get("t_end"), row.get("t_begin"))
+    return _less(row.get("t_end"), row.get("t_begin"))
 
 
-def less(one: float | None, other: float | None) -> float | None:
+def _less(one: float | None, other: float | None) -> float | None:
     """The first less the second; None where one is not known."""
     return None if one is None or other is None else float(one) - float(other)

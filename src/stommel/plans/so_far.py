@@ -1,9 +1,9 @@
 """A mission so far: time, energy and way of the dives that are over, flown against predicted."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from stommel.plans.comparison import ComparedDive, Row, less, place_of, way_between
+from stommel.plans.comparison import ComparedDive, Row
 
 
 class Total(NamedTuple):
@@ -29,40 +29,35 @@ class SoFar(NamedTuple):
     """Sum of the ways from begin to end of each dive, straight over ground."""
 
 
+Pair = tuple[float | None, float | None]
+"""A quantity of a dive, predicted and flown."""
+
+
 def so_far(rows: Iterable[ComparedDive]) -> SoFar | None:
     """Add up the dives of a comparison; None where none was both predicted and flown."""
-    both = [(row.dive, row.predicted, row.flown) for row in rows if row.predicted is not None and row.flown is not None]
+    both = [(row, row.predicted, row.flown) for row in rows if row.predicted is not None and row.flown is not None]
     if not both:
         return None
-    pairs = [(predicted, flown) for _, predicted, flown in both]
-    return SoFar(both[0][0], both[-1][0], _time(pairs), _sum(pairs, _energy), _sum(pairs, _way))
+    return SoFar(
+        both[0][0].dive,
+        both[-1][0].dive,
+        _time([(predicted, flown) for _, predicted, flown in both]),
+        _sum((predicted.get("energy_j"), flown.get("energy_j")) for _, predicted, flown in both),
+        _sum((row.predicted_way_m, row.flown_way_m) for row, _, _ in both),
+    )
 
 
-Pairs = Sequence[tuple[Row, Row]]
-
-
-def _time(pairs: Pairs) -> Total | None:
-    over = [pair for pair in pairs if all(row.get("t_end") is not None for row in pair)]
+def _time(dives: Sequence[tuple[Row, Row]]) -> Total | None:
+    over = [(one["t_end"], other["t_end"]) for one, other in dives if None not in (one["t_end"], other["t_end"])]
     if not over:
         return None
-    predicted, flown = (
-        float(last["t_end"]) - float(first["t_begin"]) for first, last in zip(pairs[0], over[-1], strict=True)
-    )
+    predicted, flown = (float(end) - float(row["t_begin"]) for row, end in zip(dives[0], over[-1], strict=True))
     return Total(len(over), predicted, flown, flown - predicted)
 
 
-def _sum(pairs: Pairs, tell: Callable[[Row], float | None]) -> Total | None:
-    told = [(tell(predicted), tell(flown)) for predicted, flown in pairs]
-    known = [(one, other) for one, other in told if one is not None and other is not None]
+def _sum(pairs: Iterable[Pair]) -> Total | None:
+    known = [(one, other) for one, other in pairs if one is not None and other is not None]
     if not known:
         return None
-    predicted, flown = (sum(column) for column in zip(*known, strict=True))
+    predicted, flown = (float(sum(column)) for column in zip(*known, strict=True))
     return Total(len(known), predicted, flown, flown - predicted)
-
-
-def _energy(row: Row) -> float | None:
-    return less(row.get("energy_j"), 0.0)
-
-
-def _way(row: Row) -> float | None:
-    return way_between(place_of(row, "begin"), place_of(row, "end"))

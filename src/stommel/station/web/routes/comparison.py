@@ -67,6 +67,9 @@ class Compared(BaseModel):
     predicted: PlannedDive | None
     flown: FlownDive | None
     difference: DiveDifference | None
+    predicted_way_m: float | None
+    flown_way_m: float | None
+    """From where it began to where it ended, straight over ground."""
     off_track_m: float | None
     """From the place where the flown one ended to the nearest point of the predicted track."""
 

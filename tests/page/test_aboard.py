@@ -266,6 +266,6 @@ def test_a_mission_keeps_its_predicted_track_though_the_station_forgot_the_previ
     becomes(
         compare,
         lambda: totals.inner_text().replace("\u202f", " ").split(": ")[1],
-        "7 h 00 min, 2 dives, 33.0 km, 70.0 kJ.",
+        "7 h 00 min, 2 dives, 33.0 km, 19 Wh.",
     )
     screenshot("planner-foretold")

@@ -2,6 +2,7 @@
 
 import type { Comparison } from '../../lib/types';
 import { dateTime, distance, duration, latitude, longitude, number } from '../../lib/units';
+import { energyWords } from './geometry';
 
 type Compared = Comparison['dives'][number];
 type Flown = NonNullable<Compared['flown']>;
@@ -43,10 +44,10 @@ export function offTrackWords(fixes: Comparison['fixes']): string {
 /** What the preview foretold of the mission as a whole. */
 export function totalsWords({ duration_s, energy_j, distance_m, dive_count }: NonNullable<Comparison['prediction']>): string {
   const told = [
-    duration_s === null ? '' : duration(duration_s),
-    dive_count === null ? '' : `${dive_count} dives`,
-    distance_m === null ? '' : distance(distance_m),
-    energy_j === null ? '' : energy(energy_j),
+    typeof duration_s === 'number' ? duration(duration_s) : '',
+    typeof dive_count === 'number' ? `${dive_count} dives` : '',
+    typeof distance_m === 'number' ? distance(distance_m) : '',
+    typeof energy_j === 'number' ? energyWords(energy_j) : '',
   ];
   return told.filter(Boolean).join(', ');
 }
@@ -90,7 +91,7 @@ function diveGroup({ dive, predicted, flown, difference, off_track_m, predicted_
 
 function cellsOf(row: Flown | Predicted | null, way: number | null): string[] {
   const lasts = row === null || row.t_end === null ? null : row.t_end - row.t_begin;
-  return [dateTime(row?.t_end, false).slice(5) || '–', duration(lasts), distance(way), depth(row?.greatest_depth_m), energy(row?.energy_j)];
+  return [row?.t_end ? dateTime(row.t_end, false).slice(5) : '–', duration(lasts), distance(way), depth(row?.greatest_depth_m), energy(row?.energy_j)];
 }
 
 function placeWords(flown: Flown | null, away: Known, off: number | null): string {
@@ -105,8 +106,7 @@ function depth(metres: Known): string {
   return typeof metres === 'number' ? `${number(metres, 1)}\u202fm` : '–';
 }
 
-/** An energy in kJ, or MJ. */
-export function energy(joules: Known): string {
+function energy(joules: Known): string {
   if (typeof joules !== 'number') return '–';
   return Math.abs(joules) < 1e6 ? `${number(joules / 1e3, 1)}\u202fkJ` : `${number(joules / 1e6, 2)}\u202fMJ`;
 }

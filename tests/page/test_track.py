@@ -125,7 +125,7 @@ def test_charts_and_currents_are_where_waypoints_are_drawn(
     made = httpx.post(f"{silent.address}/api/layers", json={"name": "Reef", "geojson": REEF}).json()
     page.goto(f"{silent.address}/#/{view}")
     chart = page.get_by_role("button", name="Reef", exact=True)
-    page.locator(".map .flow").wait_for()
+    page.locator(".map .flow", has_text="current").wait_for()
     chart.wait_for()
     at_rest(page)
     screenshot(f"charts-{view.rpartition('/')[2]}")

@@ -31,6 +31,8 @@ FILES = {SHORT: noise(60_000), LONG: noise(2_000_000, 1)} | {("log", each): nois
 FENCE = ((29.7, 119.6), (30.5, 119.6), (30.5, 120.5), (29.7, 120.5))
 """Corners of the plan of the mission aboard [deg]; around its waypoints and the dives."""
 HOUR = 3600.0
+TRACK = [{"t": 0.0, "lat": 29.8, "lon": 120.0}, {"t": 3.0 * HOUR, "lat": 30.1, "lon": 120.0}]
+"""That the preview foretold: straight north."""
 
 
 class Quay(NamedTuple):
@@ -66,7 +68,7 @@ def predicted(number: int, begin: float) -> dict[str, float | None]:
 def fill(database: str, begin: float) -> None:
     """Write down the mission aboard with its plan and preview, the one before, and a dive of before and one of it."""
     missions = [(BEFORE, REPLACED, None, None), (NOW, ABOARD, plan_with(geofence=[place(*each) for each in FENCE]),
-                {"dives": [predicted(number, begin) for number in (1, 2, 3)]})]  # fmt: skip
+                {"dives": [predicted(number, begin) for number in (1, 2, 3)], "track": TRACK})]  # fmt: skip
     first = predicted(1, begin)
     with Archive.open(database) as archive:
         archive.know(1, "Quay", "zju")

@@ -4,13 +4,16 @@ Oracle: differences by hand of what the preview foretold and what the vehicle re
 orders that the vehicle holds.
 """
 
+import json
 import math
+import time
 from typing import Any
 
 import pytest
 
-from tests.page.quay import BEFORE, FENCE, HOUR, NOW, Quay
+from tests.page.quay import BEFORE, FENCE, HOUR, NOW, TRACK, Quay, predicted
 from tests.page.waiting import becomes, until
+from tests.plans.plans import plan_with
 
 CIRCLES = """
     window.circles = [];
@@ -25,17 +28,19 @@ CIRCLES = """
     };
 """
 DASHES = """
-    window.dashed = [];
+    window.dashed = {};
     const {stroke, setLineDash, lineTo, moveTo, beginPath} = CanvasRenderingContext2D.prototype;
     const hooked = CanvasRenderingContext2D.prototype;
     hooked.beginPath = function () { this.places = []; return beginPath.call(this); };
     hooked.moveTo = function (x, y) { this.places?.push([x, y]); return moveTo.call(this, x, y); };
     hooked.lineTo = function (x, y) { this.places?.push([x, y]); return lineTo.call(this, x, y); };
     hooked.stroke = function (...all) {
-        if (this.getLineDash().length === 4) window.dashed = [String(this.strokeStyle), this.places];
+        window.dashed[this.getLineDash().join()] = [String(this.strokeStyle), this.places];
         return stroke.apply(this, all);
     };
 """
+FENCED, DOTTED, AIMED = "7,3,1.5,3", "2,3", "10,4"
+"""Dashes of the fence, of a predicted track and of the way through the waypoints aboard."""
 WAYPOINTS = ((0.52, 2.09), (0.53, 2.1))
 """Of the orders aboard, latitude and longitude [rad]."""
 SIGMA = 900.0
@@ -67,19 +72,74 @@ def compare(page: Any, quay: Quay) -> Any:
     return page
 
 
-def flown(page: Any) -> list[str]:
-    """Rows of flown against predicted, as people read them."""
-    rows = page.get_by_role("table", name="Dives as flown, against the preview").locator("tbody tr")
-    return [" ".join(row.split()).replace("\u202f", " ") for row in rows.all_inner_texts()]
+def flown(page: Any) -> dict[str, list[str]]:
+    """Flown against predicted, as people read it: lines of the mission and of each dive."""
+    groups = page.get_by_role("table", name="Dives as flown, against the preview").locator("tbody")
+    told = {group.get_attribute("data-group"): group.locator("tr").all_inner_texts() for group in groups.all()}
+    return {name: [" ".join(line.split()).replace("\u202f", " ") for line in lines] for name, lines in told.items()}
+
+
+def hour(t: float) -> str:
+    return time.strftime("%m-%d %H:%M", time.gmtime(t))
 
 
 def test_dives_stand_beside_those_of_the_preview_as_they_come(compare: Any, quay: Quay, screenshot: Any) -> None:
     """By hand: 0.01 degrees of latitude are 1.1 km; dive 8 of the vehicle is the first of this mission."""
-    first = "1 +2 min 1.1 km −3.0 m +1.5 kJ"
-    becomes(compare, lambda: flown(compare), [first])
+    end = quay.begin + HOUR
+    first = [
+        "Dive 1 ended at 29°54.600′N 120°00.000′E, 1.1 km from the predicted place, 0 m off the predicted track",
+        f"flown {hour(end + 120.0)} 61 min 12.2 km 97.0 m 11.5 kJ",
+        f"predicted {hour(end)} 60 min 11.1 km 100.0 m 10.0 kJ",
+        "difference +2 min +60 s +1.1 km −3.0 m +1.5 kJ",
+    ]
+    one = ["Mission so far dive 1", "flown 61 min 12.2 km 11.5 kJ", "predicted 60 min 11.1 km 10.0 kJ",
+           "difference +60 s +1.1 km +1.5 kJ"]  # fmt: skip
+    becomes(compare, lambda: flown(compare), {"so far": one, "dive 1": first})
     surfaces(quay, 9, 30.0, 104.0, 9_000.0, -300.0)
-    becomes(compare, lambda: flown(compare), [first, "2 −5 min 0 m +4.0 m −1.0 kJ"])
+    second = [
+        "Dive 2 ended at 30°00.000′N 120°00.000′E, 0 m from the predicted place, 0 m off the predicted track",
+        f"flown {hour(end + HOUR - 300.0)} 59 min 22.2 km 104.0 m 9.0 kJ",
+        f"predicted {hour(end + HOUR)} 60 min 11.1 km 100.0 m 10.0 kJ",
+        "difference −5 min −60 s +11.1 km +4.0 m −1.0 kJ",
+    ]
+    both = ["Mission so far dives 1 to 2", "flown 1 h 54 min 34.4 km 20.5 kJ", "predicted 2 h 00 min 22.2 km 20.0 kJ",
+            "difference −6 min +12.2 km +0.5 kJ"]  # fmt: skip
+    becomes(compare, lambda: flown(compare), {"so far": both, "dive 2": second, "dive 1": first})
     screenshot("flown-against-predicted")
+
+
+def test_the_predicted_track_is_drawn_where_somebody_wants_it(page: Any, quay: Quay, screenshot: Any) -> None:
+    """Straight north, as the preview foretold. The choice holds for all maps, and for the page loaded anew."""
+    page.add_init_script(DASHES)
+    track = [(place["lat"], place["lon"]) for place in TRACK]
+    page.goto(f"{quay.address}/#/vehicle/1")
+    page.locator(".map .waypoint").nth(1).wait_for()
+    choice = page.get_by_role("button", name="Predicted")
+    assert choice.get_attribute("aria-pressed") == "false"
+    assert DOTTED not in page.evaluate("window.dashed")
+    choice.click()
+    page.get_by_text("dotted: predicted before the upload").wait_for()
+    becomes(page, lambda: is_drawn(page, DOTTED, *track), True)
+    screenshot("predicted-vehicle")
+    page.goto(f"{quay.address}/#/map")
+    page.reload()
+    page.locator(".map .waypoint").nth(1).wait_for()
+    becomes(page, lambda: is_drawn(page, DOTTED, *track), True)
+    assert choice.get_attribute("aria-pressed") == "true"
+    choice.click()
+    page.get_by_text("dotted: predicted before the upload").wait_for(state="detached")
+
+
+def test_the_planner_tells_the_predicted_track_of_the_mission_aboard(page: Any, quay: Quay, serious: Any) -> None:
+    """In the colour of that mission, which is not that of the plan on the desk and its preview."""
+    page.add_init_script(DASHES)
+    page.goto(f"{quay.address}/#/vehicle/1/plan")
+    page.get_by_text("predicted, mission aboard", exact=True).wait_for()
+    until(page, lambda: {DOTTED, AIMED} <= set(page.evaluate("window.dashed")))
+    colours = {dashes: colour for dashes, (colour, _) in page.evaluate("window.dashed").items()}
+    assert colours[DOTTED] == colours[AIMED]
+    assert page.get_by_text("predicted, plan on the desk", exact=True).count() == 0
+    assert serious() == []
 
 
 def test_the_fence_and_the_uncertainty_are_drawn_where_they_are(page: Any, quay: Quay, screenshot: Any) -> None:
@@ -91,8 +151,7 @@ def test_the_fence_and_the_uncertainty_are_drawn_where_they_are(page: Any, quay:
         page.goto(f"{quay.address}/#/{view}")
         page.locator(".map .vehicle").wait_for()
         page.locator(".map .waypoint").nth(1).wait_for()
-        until(page, lambda: len(page.evaluate("window.dashed")) == 2)
-        becomes(page, lambda: is_fence(page), True)
+        becomes(page, lambda: is_drawn(page, FENCED, *FENCE, FENCE[0]), True)
         screenshot(f"fence-{view.replace('/', '-')}")
         for _ in range(3):
             page.get_by_role("button", name="Nearer").click()
@@ -115,16 +174,16 @@ def mercator(latitude: float, longitude: float) -> tuple[float, float]:
     return math.radians(longitude), math.asinh(math.tan(math.radians(latitude)))
 
 
-def is_fence(page: Any) -> bool:
-    """Whether what is drawn is the fence of the plan, by the marks of two waypoints and Mercator's projection."""
+def is_drawn(page: Any, dashes: str, *places: tuple[float, float]) -> bool:
+    """Whether a line leads through these places, by the marks of two waypoints and Mercator's projection."""
     (x, y), (far_x, _) = mark(page, "waypoint", 0), mark(page, "waypoint", 1)
     (east, north), (far_east, _) = (mercator(*map(math.degrees, place)) for place in WAYPOINTS)
     scale = (far_x - x) / (far_east - east)
     wanted = [
         (x + scale * (place[0] - east), y - scale * (place[1] - north))
-        for place in (mercator(*corner) for corner in (*FENCE, FENCE[0]))
+        for place in (mercator(*corner) for corner in places)
     ]
-    drawn = page.evaluate("window.dashed[1]")
+    _, drawn = page.evaluate("window.dashed").get(dashes, ("", []))
     return len(drawn) == len(wanted) and all(math.dist(*both) < 1.0 for both in zip(drawn, wanted, strict=True))
 
 
@@ -162,3 +221,51 @@ def test_the_mission_before_is_flown_again(compare: Any, quay: Quay, screenshot:
     until(compare, lambda: quay.vehicle.missions.files[-1] == BEFORE.encode())
     compare.locator("[data-mission][data-state='aboard']", has_text="The way before").wait_for()
     compare.locator("[data-mission][data-state='replaced']", has_text="There and back").wait_for()
+
+
+def test_a_mission_keeps_its_predicted_track_though_the_station_forgot_the_preview(
+    compare: Any, quay: Quay, screenshot: Any
+) -> None:
+    """The mission aboard has no preview, and says so. The next one's was made before a restart of the station.
+
+    Oracle: what the preview told, which is told again to a browser that has never seen it.
+    """
+    compare.get_by_text("No preview was made of the mission that the vehicle holds").wait_for()
+    assert compare.get_by_text("predicted, mission aboard", exact=True).count() == 0
+    answer = {
+        "job": "0123abcd", "state": "done", "share": 1.0, "seconds_left": None, "error": None,
+        "result": {
+            "verdict": "all waypoints reached", "outcome": "mission complete", "t_begin": quay.begin,
+            "duration_s": 7.0 * HOUR, "energy_j": 70_000.0, "battery_left_share": 0.9, "distance_m": 33_000.0,
+            "surfacings": 2, "dive_count": 2, "dives": [predicted(number, quay.begin) for number in (1, 2)],
+            "waypoints": [], "track": TRACK, "series": {"t": [0.0], "depth_m": [0.0]},
+            "path": {"distance_m": [], "depth_m": []}, "warnings": [],
+        },
+    }  # fmt: skip
+    compare.route("**/api/plans/preview", lambda route: route.fulfill(status=202, json={"job": "0123abcd"}))
+    compare.route("**/api/jobs/0123abcd", lambda route: route.fulfill(json=answer))
+    plan = json.dumps(plan_with(name="Foretold")).encode()
+    compare.get_by_label("Plan file").set_input_files(
+        {"name": "foretold.json", "mimeType": "application/json", "buffer": plan}
+    )
+    compare.get_by_text("foretold.json is on the desk").wait_for()
+    compare.get_by_role("button", name="Preview").click()
+    compare.get_by_text("predicted, plan on the desk", exact=True).wait_for()
+    compare.get_by_role("button", name="Upload…").click()
+    dialog = compare.get_by_role("dialog", name="Upload")
+    dialog.get_by_role("button", name="Upload", exact=True).click()
+    dialog.wait_for(state="detached")
+    compare.locator("[data-mission][data-state='aboard']", has_text="Foretold").wait_for()
+    compare.get_by_text("predicted, mission aboard", exact=True).wait_for()
+    compare.evaluate("localStorage.clear()")
+    compare.reload()
+    compare.get_by_text("predicted, mission aboard", exact=True).wait_for()
+    assert compare.get_by_text("predicted, plan on the desk", exact=True).count() == 0
+    compare.get_by_role("tab", name="Aboard and compared").click()
+    totals = compare.get_by_text("Predicted of the whole mission:")
+    becomes(
+        compare,
+        lambda: totals.inner_text().replace("\u202f", " ").split(": ")[1],
+        "7 h 00 min, 2 dives, 33.0 km, 19 Wh.",
+    )
+    screenshot("planner-foretold")

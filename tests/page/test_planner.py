@@ -190,12 +190,19 @@ def test_a_preview_is_cancelled(view: Any) -> None:
 def test_a_plan_is_uploaded_and_followed_until_the_vehicle_has_switched(
     view: Any, station: str, screenshot: Any
 ) -> None:
-    """Oracle: the mission that the vehicle itself says it holds."""
+    """Oracle: the mission that the vehicle itself says it holds; what the preview told, which outlives the page."""
+    jobs: list[dict[str, Any]] = []
+    view.on("response", lambda answer: jobs.append(answer.json()) if "/api/jobs/" in answer.url and answer.ok else None)
     name = "Uploaded by a test"
     view.get_by_label("Name of the plan").fill(name)
     view.get_by_role("button", name="Upload…").click()
     dialog = view.get_by_role("dialog", name="Upload")
     dialog.get_by_text("was not previewed").wait_for()
+    dialog.get_by_role("button", name="Do not upload").click()
+    view.get_by_role("button", name="Preview").click()
+    view.get_by_text("predicted, plan on the desk", exact=True).wait_for(timeout=400_000)
+    view.get_by_role("button", name="Upload…").click()
+    dialog.get_by_role("button", name="Upload", exact=True).wait_for()
     ends = time.monotonic() + 240.0
     while dialog.count() and time.monotonic() < ends:  # a busy machine makes orders slowly: the dialog says so
         dialog.get_by_role("button", name="Upload", exact=True).click()
@@ -203,7 +210,15 @@ def test_a_plan_is_uploaded_and_followed_until_the_vehicle_has_switched(
     view.locator("[data-mission][data-state='aboard']", has_text=name).wait_for(timeout=400_000)
     assert told(station, "/vehicles/1/mission")["name"] == name
     view.get_by_text("No difference").wait_for(timeout=240_000)
+    view.get_by_text("predicted, mission aboard", exact=True).wait_for()
     screenshot("planner-aboard")
+    view.evaluate("localStorage.removeItem('stommel-draft-plan.1')")
+    view.reload()
+    view.get_by_text("predicted, mission aboard", exact=True).wait_for()
+    kept = told(station, "/vehicles/1/mission/comparison")
+    result = next(job["result"] for job in reversed(jobs) if job["state"] == "done")
+    assert [row["predicted"] for row in kept["dives"] if row["predicted"]] == result["dives"]
+    assert kept["prediction"]["track"][-1] == result["track"][-1]
     view.get_by_role("tab", name="Plan").click()
     view.locator("[data-key='dives.pitch_deg']").fill("25")
     view.get_by_role("tab", name="Aboard and compared").click()

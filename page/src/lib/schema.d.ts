@@ -145,12 +145,18 @@ export interface components {
             predicted: components["schemas"]["PlannedDive"] | null;
             flown: components["schemas"]["FlownDive"] | null;
             difference: components["schemas"]["DiveDifference"] | null;
+            predicted_way_m: number | null;
+            flown_way_m: number | null;
+            off_track_m: number | null;
         };
         Comparison: {
             mission: string | null;
             t: number | null;
             dives: components["schemas"]["Compared"][];
             reason: string | null;
+            prediction: components["schemas"]["Prediction"] | null;
+            so_far: components["schemas"]["SoFar"] | null;
+            fixes: components["schemas"]["Fix"][];
             left_geofence?: components["schemas"]["TrackPoint"] | null;
         };
         ComponentParameters: {
@@ -247,6 +253,12 @@ export interface components {
         Expected: {
             t: number;
             why: string;
+        };
+        Fix: {
+            t: number;
+            lat: number;
+            lon: number;
+            off_track_m: number;
         };
         FlownDive: {
             dive: number;
@@ -349,6 +361,18 @@ export interface components {
             channel: string;
             changed: number;
             changed_by: string;
+        };
+        KeptPreview: {
+            t_begin?: number | null;
+            duration_s?: number | null;
+            energy_j?: number | null;
+            battery_left_share?: number | null;
+            distance_m?: number | null;
+            dive_count?: number | null;
+            /** @default [] */
+            track: components["schemas"]["TrackPoint"][];
+            track_within_m?: number | null;
+            dives: components["schemas"]["PlannedDive"][];
         };
         Latest: {
             now: number;
@@ -555,9 +579,7 @@ export interface components {
                 [key: string]: unknown;
             } | null;
             job?: string | null;
-            preview?: {
-                [key: string]: unknown;
-            } | null;
+            preview?: components["schemas"]["KeptPreview"] | null;
             /** @default 86400 */
             valid_for_s: number;
         };
@@ -728,6 +750,17 @@ export interface components {
             latitude_deg: number;
             longitude_deg: number;
         };
+        Prediction: {
+            t_begin?: number | null;
+            duration_s?: number | null;
+            energy_j?: number | null;
+            battery_left_share?: number | null;
+            distance_m?: number | null;
+            dive_count?: number | null;
+            /** @default [] */
+            track: components["schemas"]["TrackPoint"][];
+            track_within_m?: number | null;
+        };
         Preview: {
             verdict: string;
             outcome: string;
@@ -890,6 +923,13 @@ export interface components {
             begin: number;
             end: number;
             is_last: boolean;
+        };
+        SoFar: {
+            first: number;
+            last: number;
+            time_s: components["schemas"]["Total"] | null;
+            energy_j: components["schemas"]["Total"] | null;
+            distance_m: components["schemas"]["Total"] | null;
         };
         SpeedMadeGood: {
             m_s: number;
@@ -1065,6 +1105,12 @@ export interface components {
         TokenMade: {
             token: components["schemas"]["Token"];
             secret: string;
+        };
+        Total: {
+            dives: number;
+            predicted: number;
+            flown: number;
+            difference: number;
         };
         TrackAnswer: {
             begin: number;
@@ -1538,6 +1584,7 @@ export type Dives = components['schemas']['Dives'];
 export type Done = components['schemas']['Done'];
 export type DriftControl = components['schemas']['DriftControl'];
 export type Expected = components['schemas']['Expected'];
+export type Fix = components['schemas']['Fix'];
 export type FlownDive = components['schemas']['FlownDive'];
 export type FlownPlan = components['schemas']['FlownPlan'];
 export type FolderAnswer = components['schemas']['FolderAnswer'];
@@ -1550,6 +1597,7 @@ export type HolderInfo = components['schemas']['HolderInfo'];
 export type Job = components['schemas']['Job'];
 export type JobError = components['schemas']['JobError'];
 export type KeptLimit = components['schemas']['KeptLimit'];
+export type KeptPreview = components['schemas']['KeptPreview'];
 export type Latest = components['schemas']['Latest'];
 export type LatestValue = components['schemas']['LatestValue'];
 export type LayerRow = components['schemas']['LayerRow'];
@@ -1596,6 +1644,7 @@ export type PlannedDive = components['schemas']['PlannedDive'];
 export type PlannedPath = components['schemas']['PlannedPath'];
 export type PlannedWaypoint = components['schemas']['PlannedWaypoint'];
 export type Position = components['schemas']['Position'];
+export type Prediction = components['schemas']['Prediction'];
 export type Preview = components['schemas']['Preview'];
 export type Problem = components['schemas']['Problem'];
 export type Profile = components['schemas']['Profile'];
@@ -1614,6 +1663,7 @@ export type Sentence = components['schemas']['Sentence'];
 export type SeriesAnswer = components['schemas']['SeriesAnswer'];
 export type Shape = components['schemas']['Shape'];
 export type Silence = components['schemas']['Silence'];
+export type SoFar = components['schemas']['SoFar'];
 export type SpeedMadeGood = components['schemas']['SpeedMadeGood'];
 export type StartedJob = components['schemas']['StartedJob'];
 export type StateMachine = components['schemas']['StateMachine'];
@@ -1625,6 +1675,7 @@ export type Surfacing = components['schemas']['Surfacing'];
 export type Take = components['schemas']['Take'];
 export type Token = components['schemas']['Token'];
 export type TokenMade = components['schemas']['TokenMade'];
+export type Total = components['schemas']['Total'];
 export type TrackAnswer = components['schemas']['TrackAnswer'];
 export type TrackPoint = components['schemas']['TrackPoint'];
 export type Transfer = components['schemas']['Transfer'];

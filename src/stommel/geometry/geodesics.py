@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pyproj import Geod, Proj
+from pyproj import Geod
 
-from stommel.geometry.earth import FLATTENING
+from stommel.geometry.sea_chart import SeaChart
 
 Array = NDArray[np.float64]
 
@@ -79,12 +79,10 @@ def beside_line(latitude_deg: Array, longitude_deg: Array, start: Place, end: Pl
     The rhumb line (of one bearing) is straight on the Mercator map, which is true to angles and has one scale around
     each place. Not a number where start and end are the same.
     """
-    mercator = Proj(proj="merc", ellps="WGS84", lon_0=end.longitude_deg)
-    (x0, y0), (x1, y1) = (mercator(place.longitude_deg, place.latitude_deg) for place in (start, end))
-    x, y = mercator(longitude_deg, latitude_deg)
-    along = np.hypot(x1 - x0, y1 - y0)
-    sine = np.sin(np.radians(latitude_deg))
-    scale = np.sqrt((1.0 - FLATTENING * (2.0 - FLATTENING) * sine**2) / (1.0 - sine**2))
+    chart = SeaChart(end.longitude_deg)
+    (x0, y0), (x1, y1) = (chart.points(np.array([place[0]]), np.array([place[1]]))[0] for place in (start, end))
+    x, y = chart.points(latitude_deg, longitude_deg).T
+    along, scale = np.hypot(x1 - x0, y1 - y0), chart.scale(latitude_deg)
     if along == 0.0:
         return np.full_like(scale, np.nan)
     return np.asarray(((x - x1) * (y1 - y0) - (y - y1) * (x1 - x0)) / along / scale)

@@ -6,8 +6,11 @@ from typing import Any
 
 import httpx
 import pytest
+from pyproj import Geod
 
 from stommel.archive import Batch, DiveRow
+from stommel.geometry.geodesics import Place
+from stommel.plans.predicted_track import PredictedTrack
 from stommel.plans.preview.flight import previewed
 from stommel.plans.preview.ordering import orders_for
 from stommel.plans.problems import plan_from
@@ -169,6 +172,86 @@ def test_planned_and_flown_stand_side_by_side(client: httpx.Client, station: Sta
     assert row["difference"]["distance_m"] == pytest.approx(0.0, abs=1e-6)
     assert row["difference"]["energy_j"] is None, "the vehicle has not told it"
     assert found["dives"][1]["flown"] is None
+    assert row["off_track_m"] < 20.0 + 1.0, "it ended on the track, which is kept within 20 m"
+    assert (found["prediction"]["distance_m"], found["prediction"]["track"]) == (
+        preview["distance_m"],
+        preview["track"],
+    )
+    sums = found["so_far"]
+    assert (sums["first"], sums["last"], sums["energy_j"]) == (1, 1, None)
+    assert sums["time_s"]["predicted"] == pytest.approx(first["t_end"] - first["t_begin"])
+    assert sums["time_s"]["flown"] == pytest.approx(630.0)
+
+
+def test_each_fix_tells_how_far_off_the_predicted_track_it_is(client: httpx.Client, station: Station) -> None:
+    """Predicted is a way straight east; the first fix is on it, the second 0.01 deg to the north, a third no fix."""
+    track = [{"t": 0.0, "lat": 28.7, "lon": 126.0}, {"t": 9.0, "lat": 28.7, "lon": 126.3}]
+    t = take_aboard(station, None, {"dives": [], "track": track})
+    told = [(60.0, 28.7, 3.0), (90.0, 28.71, 3.0), (120.0, 28.72, 500.0)]
+    station.archive.store(1, Batch(samples=[
+        sample for after, latitude, age in told for sample in (
+            ("latitude_deg", t + after, latitude), ("longitude_deg", t + after, 126.1), ("fix_age_s", t + after, age),
+            ("position_sigma_m", t + after, 1000.0),
+        )
+    ]))  # fmt: skip
+    found = client.get("/api/vehicles/1/mission/comparison").raise_for_status().json()
+    assert [(fix["t"] - t, fix["lat"]) for fix in found["fixes"]] == [(60.0, 28.7), (90.0, 28.71)]
+    _, _, north = Geod(ellps="WGS84").inv(126.1, 28.7, 126.1, 28.71)
+    assert [fix["off_track_m"] for fix in found["fixes"]] == pytest.approx([0.0, north], abs=1.0)
+    assert found["so_far"] is None
+
+
+def upload(client: httpx.Client, **told: Any) -> httpx.Response:
+    return client.post("/api/vehicles/1/mission", json={"plan": PLAN} | told)
+
+
+def test_a_mission_keeps_the_preview_whose_job_it_names(client: httpx.Client, station: Station) -> None:
+    """Oracle: the simulator's own result. Of another plan, forgotten, unfinished: told, and nothing given."""
+    station.start()
+    job = start(client)
+    result = ended(client, job)["result"]
+    other = upload(client, plan=plan_with(name="Another"), job=job)
+    assert (other.status_code, other.json()["detail"]["key"]) == (422, "job")
+    forgotten = upload(client, job="0123abcd")
+    assert (forgotten.status_code, forgotten.json()["detail"]["key"]) == (404, "job")
+    long = start(client, duration_days=365, guidance={"repeat": True}, abort={"battery_share": 0})
+    unfinished = upload(client, job=long)
+    assert (unfinished.status_code, unfinished.json()["detail"]["key"]) == (409, "job")
+    client.delete(f"/api/jobs/{long}")
+    assert client.get("/api/vehicles/1/missions").json() == []
+
+    given = upload(client, job=job)
+    assert given.status_code == 202, given.text
+    MissionRows(station.archive).change(given.json()["id"], ABOARD, "taken", station.now(1))
+    found = client.get("/api/vehicles/1/mission/comparison").raise_for_status().json()
+    for name in ("t_begin", "duration_s", "energy_j", "battery_left_share", "distance_m", "dive_count"):
+        assert found["prediction"][name] == result[name]
+    assert [row["predicted"] for row in found["dives"]] == result["dives"]
+    track = found["prediction"]["track"]
+    assert (track[0], track[-1]) == (result["track"][0], result["track"][-1])
+    assert len(track) < len(result["track"]) / 4
+    assert found["prediction"]["track_within_m"] == 20.0
+    line = PredictedTrack([Place(each["lat"], each["lon"]) for each in track])
+    assert max(far or 0.0 for far in line.off([Place(each["lat"], each["lon"]) for each in result["track"]])) < 20.1
+
+
+def test_what_a_forgotten_preview_told_is_taken_and_checked(client: httpx.Client, station: Station) -> None:
+    station.start()
+    told: dict[str, Any] = {"dives": [], "track": [{"t": 0.0, "lat": 28.7, "lon": 126.0}], "duration_s": 3600.0}
+    for wrong, key in (
+        ({"preview": told | {"duration_s": -1.0}}, "preview.duration_s"),
+        ({"preview": told | {"track": [{"t": 0.0, "lat": 99.0, "lon": 0.0}]}}, "preview.track.0.lat"),
+        ({"preview": told | {"series": {}}}, "preview.series"),
+        ({"preview": {}}, "preview.dives"),
+        ({"preview": told, "job": "0123abcd"}, None),
+    ):
+        answer = upload(client, **wrong)
+        assert (answer.status_code, answer.json()["detail"]["key"]) == (422, key)
+    given = upload(client, preview=told)
+    assert given.status_code == 202, given.text
+    MissionRows(station.archive).change(given.json()["id"], ABOARD, "taken", station.now(1))
+    found = client.get("/api/vehicles/1/mission/comparison").raise_for_status().json()
+    assert (found["prediction"]["track"], found["prediction"]["duration_s"]) == (told["track"], 3600.0)
 
 
 def test_the_flown_track_is_held_against_the_fence_of_the_plan(client: httpx.Client, station: Station) -> None:

@@ -10,6 +10,8 @@ export class Previewing {
   readonly vehicle: number;
   job = $state.raw<Job | null>(null);
   result = $state.raw<PreviewResult | null>(null);
+  /** Name of the job whose result it is. */
+  resultJob = '';
   reason = $state('');
   /** Of the desk, when the preview was asked for. */
   private version = $state(-1);
@@ -56,6 +58,7 @@ export class Previewing {
       this.job = job;
       if (job.state === 'done' && job.result) {
         this.result = job.result;
+        this.resultJob = job.job;
         this.version = version;
       } else if (job.state === 'failed') this.reason = job.error?.reason ?? 'The simulator did not say why it failed.';
       if (isOver(job)) return;

@@ -12,6 +12,8 @@ from stommel.archive.whereabouts.told import told_places, value_before
 
 FRESH_FIX = 15.0
 """A position is by GPS if its fix is no older [s]."""
+BY_GPS, ESTIMATED = "gps", "estimate"
+"""Sources of a position."""
 
 
 class Track(NamedTuple):
@@ -24,7 +26,7 @@ class Track(NamedTuple):
     """[deg]"""
     sigma_m: list[float | None]
     source: list[str]
-    """`gps` or `estimate`."""
+    """`BY_GPS` or `ESTIMATED`."""
     left_out: int
     """Of the positions that were looked at, those at which the vehicle cannot have been."""
 
@@ -55,7 +57,7 @@ def read_track(archive: Archive, vehicle: int, begin: float, end: float, points:
 
 def source_of(fix_age: float | None) -> str:
     """From what a position is known, by the time since the last fix [s]; it is an estimate if that is not told."""
-    return "gps" if fix_age is not None and fix_age <= FRESH_FIX else "estimate"
+    return BY_GPS if fix_age is not None and fix_age <= FRESH_FIX else ESTIMATED
 
 
 def thinned(places: Places, points: int, fixed: NDArray[np.bool_]) -> NDArray[np.intp]:

@@ -4,9 +4,9 @@ import secrets
 import threading
 import time
 from collections import OrderedDict, deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from stommel.errors import StommelError
 from stommel.plans.plan import StationPlan
@@ -32,6 +32,14 @@ class TooManyJobsError(StommelError):
 
 class UnknownJobError(StommelError):
     """No job has this name, or it was long ago."""
+
+    key = "job"
+
+
+class NotFlownError(StommelError):
+    """A job has no result: it is not over, or has failed."""
+
+    key = "job"
 
 
 @dataclass
@@ -72,6 +80,13 @@ class Job:
             "result": self.result,
             "error": self.error,
         }
+
+
+class Flight(NamedTuple):
+    """A plan, and what the simulator told of it."""
+
+    plan: Mapping[str, Any]
+    result: Mapping[str, Any]
 
 
 class _Lane:
@@ -179,6 +194,21 @@ class Previews:
             There is none of this name.
         """
         return self._found(name).as_row()
+
+    def flight(self, name: str) -> Flight:
+        """Plan and result of a job that is done.
+
+        Raises
+        ------
+        UnknownJobError
+            There is none of this name.
+        NotFlownError
+            It is not done.
+        """
+        job = self._found(name)
+        if job.state != DONE:
+            raise NotFlownError(f"job {name} has no result: it is {job.state}; ask for one that is done")
+        return Flight(job.document, job.result)
 
     def cancel(self, name: str) -> None:
         """Let a job be, whether it waits or runs; one that is over stays as it is.

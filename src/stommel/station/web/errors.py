@@ -14,7 +14,7 @@ from starlette.exceptions import HTTPException as AnyHTTPException
 from stommel.archive.errors import ArchiveError, ArchiveRequestError
 from stommel.errors import FileError, StommelError, one_line
 from stommel.files.sentences import dotted, value_sentence
-from stommel.plans.preview.previews import TooManyJobsError, UnknownJobError
+from stommel.plans.preview.previews import NotFlownError, TooManyJobsError, UnknownJobError
 from stommel.plans.preview.worker import SimulatorError
 from stommel.plans.problems import PlanError
 from stommel.station.people.errors import (
@@ -46,6 +46,7 @@ STATUS: tuple[tuple[type[StommelError], int], ...] = (
     (LateError, 503),
     (TooManyJobsError, 429),
     (UnknownJobError, 404),
+    (NotFlownError, 409),
     (SimulatorError, 503),
     (ArchiveRequestError, 422),
     (ArchiveError, 503),

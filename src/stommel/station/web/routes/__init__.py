@@ -5,6 +5,7 @@ from fastapi import APIRouter
 from stommel.station.web.routes import (
     alarms,
     commands,
+    comparison,
     data,
     files,
     layers,
@@ -38,4 +39,5 @@ ROUTERS: tuple[APIRouter, ...] = (
     layers.router,
     replays.router,
     plans.router,
+    comparison.router,
 )

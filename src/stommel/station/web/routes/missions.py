@@ -1,5 +1,6 @@
 """Missions of a vehicle: what it holds, what it was given by whom, and giving it another."""
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Path, Query
@@ -7,12 +8,15 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from stommel.archive.times import GREATEST_TIME
 from stommel.plans.flown import current_of_last_dive
+from stommel.plans.kept_preview import KeptPreview, kept_preview
 from stommel.plans.plan import StationPlan
+from stommel.plans.preview.previews import Flight
 from stommel.plans.problems import plan_from
 from stommel.plans.resolving import resolved
 from stommel.station.station import Station
 from stommel.station.vehicles.line import VehicleLine
 from stommel.station.web.access import Holder, Viewer
+from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation
 from stommel.vehicle import builtin_names
 
@@ -137,15 +141,17 @@ class NewMission(BaseModel):
     orders: Annotated[str, Field(min_length=1, max_length=MOST_ORDERS)] | None = None
     plan: dict[str, Any] | None = None
     job: Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[0-9a-f]+$")] | None = None
-    """Preview of the plan, whose result is kept to compare."""
-    preview: dict[str, Any] | None = None
-    """What a preview told, in place of `job`."""
+    """Preview of the plan, of which track, dives and totals are kept to compare."""
+    preview: KeptPreview | None = None
+    """What a preview told, in place of a `job` that the station has forgotten."""
     valid_for_s: Validity = USUAL
 
     @model_validator(mode="after")
     def _one_of_them(self) -> "NewMission":
         if (self.orders is None) == (self.plan is None):
             raise ValueError("give orders, or a plan, and not both")
+        if self.job is not None and self.preview is not None:
+            raise ValueError("give the job of a preview, or what it told, and not both")
         return self
 
 
@@ -187,17 +193,17 @@ def show_mission_aboard(_user: Viewer, line: Line, station: TheStation, at: Past
 def upload_mission(user: Holder, line: Line, station: TheStation, new: NewMission) -> Mission:
     """Give the vehicle a mission: kept here first, then sent; it takes it whole, or keeps the one that it has.
 
-    It comes in place of one that waits or is on its way, which is then not sent.
+    It comes in place of one that waits or is on its way, which is then not sent. Where the station has forgotten the
+    job of a preview, nothing is given: hand its result over as `preview`, or preview again.
     """
     plan, orders = new.plan, new.orders or ""
     if plan is not None:
         made = _resolved(station, line, plan)
         plan = made.model_dump(mode="json", exclude_none=True, exclude_unset=True)
         orders = station.previews.orders(made)
-    preview = new.preview if new.job is None else station.previews.job(new.job).get("result")
-    row = station.missions.upload(
-        line.vehicle, user.name, orders, plan=plan, preview=preview, valid_for_s=new.valid_for_s
-    )  # fmt: skip
+    preview = new.preview if new.job is None else _foretold(station.previews.flight(new.job), plan)
+    kept = None if preview is None else preview.thinned().model_dump(mode="json")
+    row = station.missions.upload(line.vehicle, user.name, orders, plan=plan, preview=kept, valid_for_s=new.valid_for_s)
     return Mission.model_validate(station.missions.told(row))
 
 
@@ -230,3 +236,15 @@ def _resolved(station: Station, line: VehicleLine, plan: dict[str, Any]) -> Stat
         plan_from(plan), now=line.clock.now(), vehicles=sorted({*builtin_names(), model}), model=model,
         current=current_of_last_dive(station.archive, line.vehicle),
     )  # fmt: skip
+
+
+def _foretold(flight: Flight, plan: Mapping[str, Any] | None) -> KeptPreview:
+    """What is kept of the flight of a plan, which must be this one."""
+    if plan is not None and _without_hour(plan) != _without_hour(flight.plan):
+        raise refusal(422, "job: is the preview of another plan; preview this one", key="job")
+    return kept_preview(flight.result)
+
+
+def _without_hour(plan: Mapping[str, Any]) -> dict[str, Any]:
+    """A plan without what the station fills in anew each time: when it begins, and the current of the last dive."""
+    return {**plan, "start_time": None, "water": plan.get("water", {}).get("ocean")}

@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, Field
 
 from stommel.plans.fields import PlanField
+from stommel.plans.kept_preview import PlannedDive, TrackPoint
 from stommel.plans.plan import StationPlan
 
 Number = Annotated[int, Field(ge=1, le=250)]
@@ -57,36 +58,6 @@ class JobError(BaseModel):
 
     reason: str
     problems: list[Problem]
-
-
-class TrackPoint(BaseModel):
-    """A place of the predicted track."""
-
-    t: float
-    lat: float
-    lon: float
-
-
-class PlannedDive(BaseModel):
-    """A predicted dive."""
-
-    dive: int
-    t_begin: float
-    t_end: float
-    latitude_begin: float
-    longitude_begin: float
-    latitude_end: float
-    longitude_end: float
-    greatest_depth_m: float
-    current_north_m_s: float | None
-    current_east_m_s: float | None
-    energy_j: float | None
-
-
-class KeptPreview(BaseModel):
-    """What of a preview that was kept is compared."""
-
-    dives: list[PlannedDive]
 
 
 class PlannedWaypoint(BaseModel):
@@ -171,51 +142,3 @@ class PlanTemplates(BaseModel):
     fields: list[PlanField]
     vehicles: list[str]
     """Vehicle files that a plan may name."""
-
-
-class DiveDifference(BaseModel):
-    """Flown less predicted."""
-
-    end_s: float | None
-    duration_s: float | None
-    distance_m: float | None
-    depth_m: float | None
-    energy_j: float | None
-
-
-class FlownDive(BaseModel):
-    """A dive that the vehicle reported."""
-
-    dive: int
-    t_begin: float
-    t_end: float | None
-    latitude_begin: float | None
-    longitude_begin: float | None
-    latitude_end: float | None
-    longitude_end: float | None
-    greatest_depth_m: float | None
-    current_north_m_s: float | None
-    current_east_m_s: float | None
-    energy_j: float | None
-
-
-class Compared(BaseModel):
-    """One dive of the mission, counted from its first."""
-
-    dive: int
-    predicted: PlannedDive | None
-    flown: FlownDive | None
-    difference: DiveDifference | None
-
-
-class Comparison(BaseModel):
-    """Planned against flown."""
-
-    mission: str | None
-    t: float | None
-    """Since when the vehicle holds it [s since 1970]; null where it was found aboard."""
-    dives: list[Compared]
-    reason: str | None
-    """Why there is nothing to compare with."""
-    left_geofence: TrackPoint | None = None
-    """Where the vehicle was outside of the geofence of its plan for the first time."""

@@ -1,36 +1,26 @@
-"""Plans: problems, orders, predicted flight, what the vehicle flies as a plan, planned against flown."""
+"""Plans: problems, orders, predicted flight, what the vehicle flies as a plan."""
 
-from collections.abc import Mapping
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Query
 
-from stommel.archive.times import GREATEST_TIME
-from stommel.archive.whereabouts.track import read_track
-from stommel.errors import FileError
-from stommel.files.sentences import validated
 from stommel.geometry.geodesics import Place
 from stommel.planning.vehicle_limits import vehicle_limits
-from stommel.plans.comparison import ComparedDive, compared
 from stommel.plans.expected_water import ocean_at
 from stommel.plans.fields import plan_fields
-from stommel.plans.flown import HeldMission, current_of_last_dive, held_mission, neutral_density
+from stommel.plans.flown import current_of_last_dive, held_mission, neutral_density
 from stommel.plans.plan import StationPlan
 from stommel.plans.problems import PlanError, plan_from
 from stommel.plans.resolving import resolved
 from stommel.plans.templates import DEFAULT_START, place_row, templates
-from stommel.plans.way import first_outside
 from stommel.station.station import Station
 from stommel.station.web.access import Pilot, Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation, line_to
 from stommel.station.web.routes.plan_shapes import (
     Checked,
-    Compared,
-    Comparison,
     FlownPlan,
     Job,
-    KeptPreview,
     OpenedPlan,
     OrdersBody,
     PlanBody,
@@ -38,7 +28,6 @@ from stommel.station.web.routes.plan_shapes import (
     PlanTemplates,
     Problem,
     StartedJob,
-    TrackPoint,
 )
 from stommel.vehicle import builtin_names, load_vehicle
 
@@ -46,10 +35,6 @@ router = APIRouter(prefix="/api", tags=["plans"])
 
 JobName = Annotated[str, Path(min_length=1, max_length=64, pattern=r"^[0-9a-f]+$")]
 DEFAULT_VEHICLE = "zju"
-MOST_COMPARED = 2000
-"""Dives of a comparison: the last ones."""
-MOST_TRACK = 2000
-"""Points of a track that are held against the geofence."""
 
 
 @router.get("/plan-templates", response_model_exclude_unset=True)
@@ -122,61 +107,6 @@ def show_flown_plan(_user: Viewer, line: Line, station: TheStation) -> FlownPlan
     if held.plan is not None:
         return FlownPlan.model_validate(about | {"plan": plan_from(held.plan), "remarks": []})
     return FlownPlan.model_validate(about | station.previews.opened(held.orders, _around(station, line.vehicle)))
-
-
-@router.get("/vehicles/{vehicle}/mission/comparison")
-def compare_mission(
-    _user: Viewer,
-    line: Line,
-    station: TheStation,
-    job: Annotated[str | None, Query(min_length=1, max_length=64, pattern=r"^[0-9a-f]+$")] = None,
-) -> Comparison:
-    """Return the dives of the mission that the vehicle holds, predicted and flown side by side.
-
-    Predicted is what the preview told that was sent with the plan, or the result of `job`.
-    """
-    held = held_mission(station.archive, line.vehicle)
-    if held is None:
-        return Comparison(mission=None, t=None, dives=[], reason="it is not known which mission the vehicle holds")
-    predicted = _predicted(held.preview if job is None else station.previews.job(job)["result"])
-    flown = [row._asdict() for row in station.archive.dives(line.vehicle)]
-    rows = compared(predicted or [], flown, held.begin)
-    reason = None
-    if predicted is None:
-        reason = "no preview was made of the mission that the vehicle holds; preview its plan to compare"
-    elif not any(row.flown for row in rows):
-        reason = "the vehicle has reported no dive of this mission yet"
-    dives = [_compared(row) for row in rows[-MOST_COMPARED:]]
-    left = _left_geofence(station, line.vehicle, held)
-    return Comparison(mission=held.name, t=held.begin or None, dives=dives, reason=reason, left_geofence=left)
-
-
-def _left_geofence(station: Station, vehicle: int, held: HeldMission) -> TrackPoint | None:
-    """Where the vehicle left the geofence of the plan that it flies; None where it did not, or there is none."""
-    try:
-        corners = () if held.plan is None else plan_from(held.plan).geofence
-    except PlanError:  # of an older station
-        corners = ()
-    if not corners:
-        return None
-    track = read_track(station.archive, vehicle, held.begin, GREATEST_TIME, MOST_TRACK)
-    points = zip(track.t, track.latitude, track.longitude, strict=True)
-    left = first_outside(corners, ({"t": t, "lat": latitude, "lon": longitude} for t, latitude, longitude in points))
-    return None if left is None else TrackPoint.model_validate(left)
-
-
-def _predicted(preview: Mapping[str, Any] | None) -> list[dict[str, Any]] | None:
-    """Dives of a preview; None where there is none, or something else was kept in its place."""
-    try:
-        kept = validated(preview, KeptPreview, "preview")
-    except FileError:
-        return None
-    return [dive.model_dump() for dive in kept.dives]
-
-
-def _compared(row: ComparedDive) -> Compared:
-    difference = None if row.difference is None else row.difference._asdict()
-    return Compared.model_validate(row._asdict() | {"difference": difference})
 
 
 def _plan(station: Station, body: PlanBody) -> StationPlan:

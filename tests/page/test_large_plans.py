@@ -51,7 +51,7 @@ def opened(view: Any, tmp_path: Path) -> Open:
 def preview(view: Any) -> str:
     """What a preview says."""
     view.get_by_role("button", name="Preview").click()
-    view.get_by_text("Way made good").wait_for(timeout=180_000)
+    view.get_by_text("Way over ground").wait_for(timeout=180_000)
     said: str = view.get_by_label("Preview by the simulator").inner_text()
     return said
 

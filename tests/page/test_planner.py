@@ -153,7 +153,7 @@ def test_a_preview_tells_what_the_simulator_found_and_grows_old_with_the_plan(vi
     view.on("response", lambda answer: jobs.append(answer.json()) if "/api/jobs/" in answer.url and answer.ok else None)
     with view.expect_response("**/api/plans/preview"):
         view.get_by_role("button", name="Preview").click()
-    view.get_by_text("Way made good").wait_for(timeout=400_000)
+    view.get_by_text("Way over ground").wait_for(timeout=400_000)
     result = next(job["result"] for job in reversed(jobs) if job["state"] == "done")
     shown = view.get_by_label("Preview by the simulator").inner_text()
     assert str(result["dive_count"]) in shown

@@ -27,7 +27,7 @@ _RANGES = {
 
 PRINTABLE = r"^[^\x00-\x1f\x7f]*$"
 """A name without control characters: no system opens the first of them, and the others are not seen."""
-_ENTRY = r"^(\d{1,17})-(alarm|command|hold|limit|mission|note|parameter|text|transfer)-([0-9a-f]{1,16})$"
+_ENTRY = r"^(\d{1,17})-(alarm|command|dive|hold|limit|mission|note|parameter|text|transfer)-([0-9a-f]{1,16})$"
 """Of the log book."""
 _PATTERNS = {
     r"^[A-Za-z]\w*$": "must begin with a letter, and go on with letters, digits and _",

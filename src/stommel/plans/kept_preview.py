@@ -65,7 +65,7 @@ class Prediction(BaseModel):
     energy_j: Energy | None = None
     battery_left_share: Share | None = None
     distance_m: Annotated[float, between(0, 1e9)] | None = None
-    """Made good over ground."""
+    """Over ground, along the track [m]."""
     dive_count: Annotated[int, between(0, 1_000_000)] | None = None
     track: Annotated[list[TrackPoint], Field(max_length=MOST_GIVEN)] = []
     """Empty where it was not kept, as by stations of before."""

@@ -3,6 +3,7 @@
 import multiprocessing
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from math import inf
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from pathlib import Path
@@ -24,7 +25,7 @@ STARTED_WITHIN = 60.0
 ANSWERS_WITHIN = 5.0
 """A process that says nothing for so long hangs, and is ended [s]."""
 _ENDS_WITHIN = 2.0
-_DEAD = AcquisitionOutputs(0, False, False, b"")
+_DEAD = AcquisitionOutputs(0, False, inf, False, b"")
 
 
 class NodeProcess:

@@ -44,7 +44,7 @@ from stommel.sitl.radio.air import Air, End
 from stommel.sitl.radio.station import SYSTEM, Station
 
 NODES = (COORDINATOR, MOTION, ACQUISITION)
-_SWITCHED_OFF = AcquisitionOutputs(0, False, False, b"")
+_SWITCHED_OFF = AcquisitionOutputs(0, False, inf, False, b"")
 
 
 @dataclass
@@ -241,7 +241,7 @@ class System:
             return
         latitude, longitude = degrees(self.plant.setup.world["latitude"]), degrees(self.plant.setup.world["longitude"])
         sampling = self.switched.sampling
-        every = self.coordinator.samples_every
+        every = self.switched.sample_interval
         truth = self.payload.truth(self.plant, latitude, longitude, self._utc(t), every) if sampling else NOTHING
         said = self.inject.heard("ctd", ctd.exchange(self.ports.to_ctd, self.inject.ctd(truth), t))
         frames, self.switched = self.acquisition.step(t, heard, self._acquisition_readings(felt), said)

@@ -250,9 +250,9 @@ def test_an_abort_ends_sampling_and_leaves_the_rest_to_the_coordinator():
     bench = Bench()
     bench.run(2, frames=[bench.switch(7, 1, 1)])
     bench.run(1, frames=[bench.coordinator.frame("Abort", reason=2, drop_weight=0)])
-    assert bench.out == (7, False, True, b"")
+    assert bench.out == (7, False, 2.0, True, b"")
     bench.run(1, frames=[bench.switch(8, 0, 1)])
-    assert bench.out == (8, False, True, b"")
+    assert bench.out == (8, False, 2.0, True, b"")
 
 
 def test_commands_of_drives_are_refused_and_a_restart_is_counted_and_proves_anew():

@@ -170,10 +170,11 @@ function drawMark(context: Context, project: GeoProjection, mark: MapMark): void
 }
 
 function line(context: Context, project: GeoProjection, places: readonly Place[]): void {
-  geoPath(project, context)({
-    type: 'LineString',
-    coordinates: places.map((place) => [place.longitude, place.latitude]),
-  });
+  geoPath(project, context)(lineOf(places));
+}
+
+function lineOf(places: readonly Place[]): GeoJSON.LineString {
+  return { type: 'LineString', coordinates: places.map((place) => [place.longitude, place.latitude]) };
 }
 
 function drawCircle(context: Context, project: GeoProjection, view: MapView, circle: Scene['circles'][number]): void {
@@ -220,21 +221,14 @@ function drawTrack(context: Context, project: GeoProjection, track: MapTrack): v
   drawFixes(context, project, places);
 }
 
-/** More in one line take a browser seconds to draw, and lie upon each other in any view. */
+/** More in one line take a browser seconds to draw. So many within a map lie upon each other. */
 const MOST_DASHES = 2000;
 
-/** The dashes of a line, or none where they would be too many: it is drawn through then. */
+/** The dashes of a line, or none where what is seen of it would have too many: it is drawn through then. */
 function dashes(wanted: number[], project: GeoProjection, places: Places): number[] {
   if (wanted.length === 0) return wanted;
-  const most = MOST_DASHES * wanted.reduce((sum, length) => sum + length, 0);
-  let [length, last] = [0, undefined as [number, number] | undefined];
-  for (const place of places) {
-    const at = project([place.longitude, place.latitude]) ?? undefined;
-    if (at && last) length += Math.hypot(at[0] - last[0], at[1] - last[1]);
-    if (length > most) return [];
-    last = at;
-  }
-  return wanted;
+  const period = wanted.reduce((sum, length) => sum + length, 0);
+  return geoPath(project).measure(lineOf(places)) > MOST_DASHES * period ? [] : wanted; // clipped, as it is drawn
 }
 
 type Places = MapTrack['places'];

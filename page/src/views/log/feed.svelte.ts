@@ -33,7 +33,8 @@ export class Feed {
       this.#ends = [];
       return;
     }
-    const again = (): void => this.#soon(() => void this.#refresh());
+    // what is to be looked for is not put off, and often is often enough
+    const again = (): void => void (this.#timer === undefined && this.#soon(() => void this.#refresh()));
     this.#ends = KINDS.map((kind) => live.on(kind, (event) => (event.vehicle ?? vehicle) === vehicle && again()));
     this.#ends.push(live.onOpen(again));
     const states = new Map<number, string>();
@@ -62,7 +63,7 @@ export class Feed {
     if (until < before) {
       this.#number += 1;
       this.#soon(() => void this.#begin());
-    } else if (this.#timer === undefined) this.#soon(() => void this.#refresh()); // often is often enough
+    } else if (this.#timer === undefined) this.#soon(() => void this.#refresh());
   }
 
   async older(): Promise<void> {

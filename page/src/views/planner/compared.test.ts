@@ -28,7 +28,7 @@ describe('flown against predicted', () => {
 
   it('tells of what a preview foretold what it told', () => {
     expect(plain(totalsWords({ duration_s: 7200, energy_j: 90_000, distance_m: 4500, dive_count: 12, track: [] }))).toBe(
-      '2 h 00 min, 12 dives, 4.5 km, 25 Wh',
+      '2 h 00 min, 12 dives, 4.5 km over ground, 25 Wh',
     );
     expect(totalsWords({ duration_s: null, energy_j: null, distance_m: null, track: [] })).toBe('');
   });

@@ -38,7 +38,7 @@ export function offTrackWords(fixes: Comparison['fixes']): string {
   if (!last) return '';
   const farthest = fixes.reduce((most, fix) => (fix.off_track_m > most.off_track_m ? fix : most));
   const words = `${distance(last.off_track_m)} off the predicted track at its last fix, ${dateTime(last.t, false)} UTC`;
-  return farthest === last ? `${words}.` : `${words}; at most ${distance(farthest.off_track_m)}, ${dateTime(farthest.t, false)} UTC.`;
+  return farthest === last ? `${words}.` : `${words}; at most ${distance(farthest.off_track_m)} at its last ${fixes.length} fixes, ${dateTime(farthest.t, false)} UTC.`;
 }
 
 /** What the preview foretold of the mission as a whole. */
@@ -46,7 +46,7 @@ export function totalsWords({ duration_s, energy_j, distance_m, dive_count }: No
   const told = [
     typeof duration_s === 'number' ? duration(duration_s) : '',
     typeof dive_count === 'number' ? `${dive_count} dives` : '',
-    typeof distance_m === 'number' ? distance(distance_m) : '',
+    typeof distance_m === 'number' ? `${distance(distance_m)} over ground` : '',
     typeof energy_j === 'number' ? energyWords(energy_j) : '',
   ];
   return told.filter(Boolean).join(', ');

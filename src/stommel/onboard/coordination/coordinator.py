@@ -94,8 +94,7 @@ class Coordinator:
         self._sources = Sources(self.perception, self.instruments, t, has_altimeter=settings.has_altimeter)
         self.health = self._sources.monitor
         self._mission_samples_every: float | None = None
-        self.samples_every = self._wanted_samples()
-        """Time between two samples of the CTD, as its node is told [s]."""
+        self._sample_every = self._wanted_samples()
 
     def request(self, requests: OperatorRequests) -> None:
         """Ask for something, at the next decision, beside what was asked before it."""
@@ -201,7 +200,7 @@ class Coordinator:
     def _look_after(self, situation: Situation, t: float) -> Health:
         """Say of each node and instrument how it does."""
         compass_every = self.instruments.compass_every(self.pilot.phase)
-        return self._sources.look(situation, Periods(compass_every, self.settings.gnss.interval, self.samples_every), t)
+        return self._sources.look(situation, Periods(compass_every, self.settings.gnss.interval, self._sample_every), t)
 
     def _navigate(self, t: float) -> NavigationEstimate | None:
         """Follow how far the position may be wrong."""
@@ -235,7 +234,7 @@ class Coordinator:
     def _inside(self, t: float) -> Inside:
         pilot, seen = self.pilot, self.perception
         heard = seen.heard.get("CtdSample", float("-inf"))
-        ctd_silent = t - max(heard, self.health.since(CTD)) > 2.0 * self.samples_every + CTD_PATIENCE
+        ctd_silent = t - max(heard, self.health.since(CTD)) > 2.0 * self._sample_every + CTD_PATIENCE
         return Inside(
             phase=pilot.phase,
             event=pilot.event,
@@ -258,8 +257,8 @@ class Coordinator:
         self.health.switch(GPS, commands.radio, t)
         self.health.switch(RADIO, commands.radio, t)
         every = self._wanted_samples()
-        if every != self.samples_every:
-            self.samples_every = every
+        if every != self._sample_every:
+            self._sample_every = every
             self.health.switch(CTD, False, t)  # what was heard at another interval says nothing of this one
         self.health.switch(CTD, commands.sampling, t)
 
@@ -296,7 +295,7 @@ class Coordinator:
                 loads=commands.loads,
                 sampling=commands.sampling,
                 surface_radio=commands.radio,
-                sample_interval=self.samples_every,
+                sample_interval=self._sample_every,
             )
         )
         frames += self._nodes.step(self.perception.watch, state, t, dives_soon=self._dives_soon(state, t))

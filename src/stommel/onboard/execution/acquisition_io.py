@@ -33,6 +33,8 @@ class AcquisitionOutputs(NamedTuple):
     """Groups of consumers that are on, bits of `stommel.control.commands`."""
     sampling: bool
     """Whether the payload measures."""
+    sample_interval: float
+    """Between two samples, as the coordinator asked for [s]."""
     radio: bool
     """Whether GPS and radio have power."""
     ctd_bytes: bytes

@@ -99,7 +99,7 @@ class AcquisitionNode:
                 self._told_at = link.now
                 self._tell(readings)
         to_ctd = b"" if self._ctd is None else self._ctd.poll(link.now, self._sampling, self._interval)
-        return link.end_step(), AcquisitionOutputs(self._loads, self._sampling, self._radio, to_ctd)
+        return link.end_step(), AcquisitionOutputs(self._loads, self._sampling, self._interval, self._radio, to_ctd)
 
     def _rest(self) -> None:
         self._loads, self._sampling = self.settings.least_loads, False

@@ -36,7 +36,7 @@ EVERY = 0.2
 """Between two looks [s]."""
 WAITS = "waits until the vehicle is heard at the surface"
 NOT_KEPT = "not sent: the archive had not said that it keeps it"
-GOES_ON = "goes on: the archive had not said that it keeps the one that should come in its place"
+GOES_ON = "goes on: the archive had not said that it keeps what should have ended it"
 AGAIN = 10.0
 """Between two tries of what was refused under water [s]."""
 UNDER_WATER = "send it at the surface"
@@ -130,6 +130,8 @@ class MissionFollower:
             self._tell_ended(line, each)
         self._queue.append(task)
         self._note_open()
+        if task.row is not None:
+            self._tell(line.vehicle, task.row.id)
         return task
 
     def take_back(self, line: VehicleLine, wanted: Callable[[Task], bool], user: str) -> bool:
@@ -144,7 +146,11 @@ class MissionFollower:
         if task is None:
             return False
         words = f"taken back by {user}; {self._truth(line, task)}"
-        self._write(line, EndedTask(task, CANCELLED, words, user, line.clock.now()))
+        try:
+            self._write(line, EndedTask(task, CANCELLED, words, user, line.clock.now()))
+        except ArchiveError:
+            self._is_doubtful = True
+            raise
         self._let_go(line, task)
         self._note_open()
         return True

@@ -61,7 +61,7 @@ class MissionRows:
         told = {
             "vehicle_id": row.vehicle, "t_us": microseconds(row.t), "user": row.user, "name": row.name,
             "sha256": row.sha256, "orders": row.orders, "plan": row.plan, "preview": preview, "state": row.state,
-            "until_us": None if row.until is None else microseconds(row.until),
+            "until_us": None if row.until is None else round(1e6 * row.until),  # by a clock that may be far ahead
         }  # fmt: skip
         with self._archive.writing() as connection:
             number = connection.execute(missions.insert().values(told).returning(missions.c.id)).scalar_one()

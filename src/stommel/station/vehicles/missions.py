@@ -79,7 +79,6 @@ class Missions:
             self._rows.add(row._replace(state=FAILED), f"not sent: {error}", preview)
             raise
         assert task.row is not None
-        self._tell(vehicle, task.row.id)
         return task.row
 
     def roll_back(self, vehicle: int, user: str, valid_for_s: float) -> None:

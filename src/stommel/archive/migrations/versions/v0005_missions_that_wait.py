@@ -12,3 +12,4 @@ depends_on = None
 def upgrade() -> None:
     """Add it; of missions before, nobody knows any more."""
     op.add_column("missions", sa.Column("until_us", sa.BigInteger()))
+    op.execute("UPDATE vehicles SET profiles_change = 0")  # all are found once again, with the right mean longitude

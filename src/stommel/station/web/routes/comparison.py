@@ -7,6 +7,7 @@ from fastapi import APIRouter, Query
 from pydantic import BaseModel
 
 from stommel.archive.times import GREATEST_TIME
+from stommel.archive.whereabouts.dive_ends import with_true_ends
 from stommel.archive.whereabouts.track import BY_GPS, read_track
 from stommel.errors import FileError
 from stommel.geometry.geodesics import Place
@@ -138,9 +139,10 @@ def compare_mission(_user: Viewer, line: Line, station: TheStation, job: JobName
     foretold = _kept(held.preview) if job is None else kept_preview(station.previews.flight(job).result).thinned()
     course = None if foretold is None or not foretold.track else PredictedTrack(_places(foretold.track))
     predicted = [] if foretold is None else [dive.model_dump() for dive in foretold.dives]
-    flown = [row._asdict() for row in station.archive.dives(line.vehicle)]
+    flown = [with_true_ends(row)._asdict() for row in station.archive.dives(line.vehicle)]
     rows = compared(predicted, flown, held.begin, course)
-    track = _track(station, line.vehicle, held.begin)
+    corners = _corners(held.plan)
+    track = _track(station, line.vehicle, held.begin) if corners or course is not None else []
     answer = {
         "mission": held.name,
         "t": held.begin or None,
@@ -149,7 +151,7 @@ def compare_mission(_user: Viewer, line: Line, station: TheStation, job: JobName
         "prediction": None if foretold is None else foretold.model_dump(exclude={"dives"}),
         "so_far": so_far(rows),
         "fixes": _fixes(track, course),
-        "left_geofence": first_outside(_corners(held.plan), (point.model_dump() for point, _ in track)),
+        "left_geofence": first_outside(corners, (point.model_dump() for point, _ in track)),
     }
     return Comparison.model_validate(answer, from_attributes=True)
 

@@ -172,10 +172,11 @@ def read_dives(line: Line, station: TheStation, _user: Viewer, begin: Begin = 0.
             .where((d.vehicle_id == line.vehicle) & d.t_begin_us.between(microseconds(begin), microseconds(end)))
             .order_by(d.t_begin_us)
         )
-        return [_dive(with_true_ends(dive_of(row))) for row in rows]
+        return [told_dive(with_true_ends(dive_of(row))) for row in rows]
 
 
-def _dive(row: DiveRow) -> Dive:
+def told_dive(row: DiveRow) -> Dive:
+    """A dive of the archive, and what follows."""
     way = made_good(row)
     return Dive(**row._asdict(), distance_m=None if way is None else way.distance_m)
 

@@ -201,7 +201,7 @@ def upload_mission(user: Holder, line: Line, station: TheStation, new: NewMissio
         made = _resolved(station, line, plan)
         plan = made.model_dump(mode="json", exclude_none=True, exclude_unset=True)
         orders = station.previews.orders(made)
-    preview = new.preview if new.job is None else _foretold(station.previews.flight(new.job), plan)
+    preview = new.preview if new.job is None else _foretold(station.previews.flight(new.job), plan, new.plan)
     kept = None if preview is None else preview.thinned().model_dump(mode="json")
     row = station.missions.upload(line.vehicle, user.name, orders, plan=plan, preview=kept, valid_for_s=new.valid_for_s)
     return Mission.model_validate(station.missions.told(row))
@@ -238,13 +238,19 @@ def _resolved(station: Station, line: VehicleLine, plan: dict[str, Any]) -> Stat
     )  # fmt: skip
 
 
-def _foretold(flight: Flight, plan: Mapping[str, Any] | None) -> KeptPreview:
-    """What is kept of the flight of a plan, which must be this one."""
-    if plan is not None and _without_hour(plan) != _without_hour(flight.plan):
+def _foretold(flight: Flight, plan: Mapping[str, Any] | None, given: Mapping[str, Any] | None) -> KeptPreview:
+    """What is kept of the flight of a plan, which must be this one but for what the station fills in anew each time."""
+    left = {} if given is None else given
+    if plan is not None and _as_given(plan, left) != _as_given(flight.plan, left):
         raise refusal(422, "job: is the preview of another plan; preview this one", key="job")
     return kept_preview(flight.result)
 
 
-def _without_hour(plan: Mapping[str, Any]) -> dict[str, Any]:
-    """A plan without what the station fills in anew each time: when it begins, and the current of the last dive."""
-    return {**plan, "start_time": None, "water": plan.get("water", {}).get("ocean")}
+def _as_given(plan: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+    """A plan without what was left to the station: when it begins, and the current of the last dive."""
+    told, water = dict(plan), dict(plan.get("water", {}))
+    if given.get("start_time") is None:
+        told.pop("start_time", None)
+    if given.get("water", {}).get("current") == "last_dive":
+        water = {"ocean": water.get("ocean")}
+    return told | {"water": water}

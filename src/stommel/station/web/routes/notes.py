@@ -13,7 +13,7 @@ from stommel.station.logbook.notes import Notes
 from stommel.station.web.access import Pilot, Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation, line_to
-from stommel.station.web.routes.data import Dive
+from stommel.station.web.routes.data import Dive, told_dive
 
 router = APIRouter(prefix="/api", tags=["log book"])
 
@@ -138,5 +138,5 @@ def read_log(
 
 
 def _entry(entry: Entry) -> LogEntry:
-    dive = None if entry.dive is None else Dive(**entry.dive._asdict())
+    dive = None if entry.dive is None else told_dive(entry.dive)
     return LogEntry(**entry._asdict() | {"dive": dive})

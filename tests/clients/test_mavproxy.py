@@ -54,7 +54,7 @@ def test_parameters_are_shown_set_and_fetched(vehicle: Afloat, proxy: MavProxy) 
     own, held = vehicle.own_parameter, vehicle.values(1)
     shown = proxy.ask("param show *", list(held)[-1])
     assert re.search(rf"{own.id} +{held[own.id]}", shown)
-    wanted = float(own.low) + 100.5
+    wanted = float(held[own.id]) + 100.5  # a shorter time at the surface would end it
     proxy.say(f"param set {own.id} {wanted}")
     proxy.ask(f"param fetch {own.id}", f"{own.id} = {wanted}")
     proxy.ask("param fetch", f"Received {len(held)} parameters")

@@ -116,7 +116,7 @@ def test_parameters_are_listed_read_and_set(vehicle: Afloat) -> None:
         parameters, own = ParamAsync(system), vehicle.own_parameter
         assert listed(await parameters.get_all_params()) == pytest.approx(vehicle.values(COORDINATOR_COMPONENT))
         assert await parameters.get_param_float(own.id) == vehicle.values(COORDINATOR_COMPONENT)[own.id]
-        wanted = float(own.low) + 100.5
+        wanted = vehicle.values(COORDINATOR_COMPONENT)[own.id] + 100.5  # a shorter time at the surface would end it
         await parameters.set_param_float(own.id, wanted)
         assert vehicle.values(COORDINATOR_COMPONENT)[own.id] == wanted
         assert await parameters.get_param_float(own.id) == wanted

@@ -52,7 +52,7 @@ PURE = {
 def fields() -> Iterator[tuple[str, object]]:
     """Every key of every file that stommel reads, with its type."""
     for module in pkgutil.walk_packages(stommel.__path__, "stommel."):
-        if module.name.startswith("stommel.station.web."):
+        if module.name.startswith(("stommel.station.web.", "stommel.plans.kept_preview")):
             continue  # no files: the API's document says the unit of each field, times are [s since 1970], angles [deg]
         for kind in vars(importlib.import_module(module.name)).values():
             if inspect.isclass(kind) and issubclass(kind, BaseModel) and kind.__module__ == module.name:

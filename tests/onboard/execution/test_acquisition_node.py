@@ -190,17 +190,17 @@ def test_switches_are_followed_and_the_ctd_is_told():
     ctd = Ctd()
     bench = Bench(ctd)
     bench.run(2)
-    assert bench.out == (0, False, False, b"")
+    assert bench.out == (0, False, 1.0, False, b"")
     bench.run(2, frames=[bench.switch(5, 1, 1, 4.0)])
-    assert bench.out == (5, True, True, b"go")
+    assert bench.out == (5, True, 4.0, True, b"go")
     assert ctd.asked[-1] == (True, 4.0)
     bench.command("Stop")
-    assert bench.out == (0, False, True, b"")
+    assert bench.out == (0, False, 4.0, True, b"")
     bench.run(2, frames=[bench.switch()])
     assert bench.out.sampling is False
     bench.command("Start")
     bench.run(1, frames=[bench.switch(1, 0, 0)])
-    assert bench.out == (1, False, False, b"")
+    assert bench.out == (1, False, 2.0, False, b"")
 
 
 def test_samples_of_the_ctd_are_sent_and_its_error_values_are_not():
@@ -231,12 +231,12 @@ def test_a_quiet_bus_ends_sampling_after_a_minute_and_the_node_goes_on_sending(r
     bench.run(5, frames=[bench.switch(7, 1, 0)])
     bench.run(5, sync=False)
     assert bench.node.link.modes.mode is Mode.QUIET
-    assert bench.out == (7, True, False, b"go")
+    assert bench.out == (7, True, 2.0, False, b"go")
     bench.run(54, sync=False)
     assert bench.out.sampling
     bench.run(2, sync=False)
     assert bench.node.link.modes.mode is Mode.LEFT_ALONE
-    assert bench.out == (2, False, radio, b"")
+    assert bench.out == (2, False, 2.0, radio, b"")
     before = len(bench.messages("Depth"))
     bench.run(20, sync=False)
     assert len(bench.messages("Depth")) == before + 20

@@ -1,5 +1,7 @@
 """The ends of dives, of those that can be true, and what lies between them."""
 
+from typing import Any
+
 import numpy as np
 
 from stommel.archive.rows import DiveRow
@@ -27,6 +29,13 @@ def made_good(dive: DiveRow) -> Leg | None:
     if begin[0] is None or begin[1] is None or end[0] is None or end[1] is None:
         return None
     return leg(begin[0], begin[1], end[0], end[1])
+
+
+def told_dive(dive: DiveRow) -> dict[str, Any]:
+    """A dive as the station tells it: with `distance_m`, its way made good [m], without ends that cannot be true."""
+    dive = with_true_ends(dive)
+    way = made_good(dive)
+    return dive._asdict() | {"distance_m": None if way is None else way.distance_m}
 
 
 def _is_nowhere(latitude: float, longitude: float) -> bool:

@@ -17,10 +17,9 @@ from starlette.background import BackgroundTask
 
 from stommel.archive import schema
 from stommel.archive.readers import dive_of
-from stommel.archive.rows import DiveRow
 from stommel.archive.times import GREATEST_TIME as LATEST
 from stommel.archive.times import microseconds
-from stommel.archive.whereabouts.dive_ends import made_good, with_true_ends
+from stommel.archive.whereabouts.dive_ends import told_dive
 from stommel.data.files import csv_of_pieces, write_netcdf_pieces
 from stommel.data.variables import BY_NAME
 from stommel.data.water_masses import density_lines
@@ -172,13 +171,7 @@ def read_dives(line: Line, station: TheStation, _user: Viewer, begin: Begin = 0.
             .where((d.vehicle_id == line.vehicle) & d.t_begin_us.between(microseconds(begin), microseconds(end)))
             .order_by(d.t_begin_us)
         )
-        return [told_dive(with_true_ends(dive_of(row))) for row in rows]
-
-
-def told_dive(row: DiveRow) -> Dive:
-    """A dive of the archive, and what follows."""
-    way = made_good(row)
-    return Dive(**row._asdict(), distance_m=None if way is None else way.distance_m)
+        return [Dive(**told_dive(dive_of(row))) for row in rows]
 
 
 @router.get("/vehicles/{vehicle}/profiles", dependencies=[InOrder])

@@ -6,6 +6,7 @@ from fastapi import APIRouter, Query
 from pydantic import BaseModel, ConfigDict, Field
 
 from stommel.archive.times import GREATEST_TIME
+from stommel.archive.whereabouts.dive_ends import told_dive
 from stommel.files.sentences import PRINTABLE
 from stommel.station.live.events import Happening
 from stommel.station.logbook.feed import CURSOR, SOURCES, Entry, page_of
@@ -13,7 +14,7 @@ from stommel.station.logbook.notes import Notes
 from stommel.station.web.access import Pilot, Viewer
 from stommel.station.web.errors import refusal
 from stommel.station.web.found import Line, TheStation, line_to
-from stommel.station.web.routes.data import Dive, told_dive
+from stommel.station.web.routes.data import Dive
 
 router = APIRouter(prefix="/api", tags=["log book"])
 
@@ -138,5 +139,5 @@ def read_log(
 
 
 def _entry(entry: Entry) -> LogEntry:
-    dive = None if entry.dive is None else told_dive(entry.dive)
+    dive = None if entry.dive is None else Dive(**told_dive(entry.dive))
     return LogEntry(**entry._asdict() | {"dive": dive})

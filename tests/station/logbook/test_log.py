@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from pyproj import Geod
 from sqlalchemy import insert
 
 from stommel.archive import Batch, DiveRow
@@ -158,7 +159,8 @@ def test_pages_of_the_list_leave_nothing_out_and_repeat_nothing(station: Station
 def test_a_dive_is_told_with_all_that_is_known_of_it(station: Station, client: Client) -> None:
     filled(station)
     (entry,) = client.get("/vehicles/1/log", kinds=["dive"])["entries"]
-    assert entry["dive"] == DIVE._asdict()
+    way = Geod(ellps="WGS84").inv(126.0, 28.0, 126.02, 28.01)[2]
+    assert entry["dive"] == DIVE._asdict() | {"distance_m": pytest.approx(way, rel=1e-6)}
     assert client.get("/vehicles/2/log", kinds=["dive"])["entries"] == []
     assert client.get("/vehicles/1/log", search="dive 7")["entries"] == [entry]
     assert client.get("/vehicles/1/log", search="dive 8")["entries"] == []

@@ -22,7 +22,7 @@ describe('flown against predicted', () => {
     expect(offTrackWords([])).toBe('');
     expect(plain(offTrackWords([fix(1, 20), fix(2, 130)]))).toBe('130 m off the predicted track at its last fix, 1970-01-01 00:02 UTC.');
     expect(plain(offTrackWords([fix(1, 1500), fix(2, 130)]))).toBe(
-      '130 m off the predicted track at its last fix, 1970-01-01 00:02 UTC; at most 1.5 km, 1970-01-01 00:01 UTC.',
+      '130 m off the predicted track at its last fix, 1970-01-01 00:02 UTC; at most 1.5 km at its last 2 fixes, 1970-01-01 00:01 UTC.',
     );
   });
 

@@ -5,6 +5,11 @@ import { live } from './live.svelte';
 import type { Place } from './map/types';
 import type { Comparison } from './types';
 
+/** The track of a preview, point by point; empty where there is none. */
+export function trackOf(foretold: { track: readonly { lat: number; lon: number }[] } | null | undefined): Place[] {
+  return (foretold?.track ?? []).map(({ lat, lon }) => ({ latitude: lat, longitude: lon }));
+}
+
 export class MissionComparison {
   readonly vehicle: number;
   answer = $state.raw<Comparison | null>(null);
@@ -17,9 +22,7 @@ export class MissionComparison {
   }
 
   /** The predicted track; empty where none is known. */
-  readonly track = $derived.by<Place[]>(() =>
-    (this.answer?.prediction?.track ?? []).map(({ lat, lon }) => ({ latitude: lat, longitude: lon })),
-  );
+  readonly track = $derived(trackOf(this.answer?.prediction));
 
   /** Begins to follow; the function that comes back ends it. */
   follow(): () => void {

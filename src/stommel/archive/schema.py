@@ -210,7 +210,7 @@ missions = Table(
     Column("plan", JSON(none_as_null=True)),
     Column("preview", JSON(none_as_null=True)),
     Column("state", Name, nullable=False),
-    Column("until_us", BigInteger),  # until when it is tried, by the clock of the link, which is never set anew
+    Column("until_us", BigInteger),  # until when it is tried, by the clock of the link
     Index("ix_missions_vehicle_id_t_us", "vehicle_id", "t_us"),
 )
 

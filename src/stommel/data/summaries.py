@@ -58,15 +58,16 @@ def profile_summaries(samples: xr.Dataset) -> list[ProfileSummary]:
                 float(time[part].max()),
                 int(part.size),
                 int(dive[0]) if dive.size and dive[0] > 0 else None,
-                _known(columns["latitude"][part], np.mean),
-                _known(columns["longitude"][part], mean_deg),
-                _known(depth, np.min),
-                _known(depth, np.max),
+                of_known(columns["latitude"][part], np.mean),
+                of_known(columns["longitude"][part], mean_deg),
+                of_known(depth, np.min),
+                of_known(depth, np.max),
             )
         )
     return found
 
 
-def _known(values: Array, of: Callable[[Array], Any]) -> float | None:
+def of_known(values: Array, of: Callable[[Array], Any]) -> float | None:
+    """What a function makes of those values that are numbers; None where none is."""
     known = values[np.isfinite(values)]
     return float(of(known)) if known.size else None

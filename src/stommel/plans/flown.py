@@ -1,6 +1,6 @@
 """What the archive knows of the mission that a vehicle holds."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from sqlalchemy import func, select
@@ -10,6 +10,8 @@ from stommel.archive.schema import mission_history, missions
 from stommel.archive.times import seconds
 from stommel.control.orders_file import parse_orders
 from stommel.errors import StommelError
+from stommel.mission.plan import Position
+from stommel.plans.problems import PlanError, plan_from
 from stommel.plans.resolving import Current
 
 ABOARD = "aboard"
@@ -42,6 +44,14 @@ def held_mission(archive: Archive, vehicle: int) -> HeldMission | None:
         taken = connection.execute(since).scalar_one_or_none()
     begin = 0.0 if row.user is None else seconds(row.t_us if taken is None else taken)
     return HeldMission(begin, row.name, row.sha256, row.orders, row.plan, row.preview)
+
+
+def geofence_of(plan: Mapping[str, Any] | None) -> Sequence[Position]:
+    """Corners of the area that a mission may not leave; none of orders, or of a plan that an older station kept."""
+    try:
+        return () if plan is None else plan_from(plan).geofence
+    except PlanError:
+        return ()
 
 
 def current_of_last_dive(archive: Archive, vehicle: int) -> Current | None:

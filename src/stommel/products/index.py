@@ -10,7 +10,7 @@ from stommel.archive.archive import Archive
 from stommel.archive.ctd_reading import CtdPiece, changes_since, ctd_pieces
 from stommel.archive.times import GREATEST_TIME
 from stommel.data.profiles import ways_of
-from stommel.data.summaries import ProfileSummary
+from stommel.data.summaries import ProfileSummary, of_known
 from stommel.geometry.longitudes import mean_deg
 from stommel.products.kept_profiles import Found, keep, kept
 from stommel.products.positions import positions
@@ -102,7 +102,8 @@ class ProfileIndex:
             inside = slice(first, last + 1)
             line = ProfileSummary(
                 0, direction, float(time[first]), float(time[last]), last + 1 - first, _dive(piece.dive[first]),
-                _mean(latitude[inside]), _mean_longitude(longitude[inside]), *_extremes(depth[inside]),
+                of_known(latitude[inside], np.mean), of_known(longitude[inside], mean_deg),
+                of_known(depth[inside], np.min), of_known(depth[inside], np.max),
             )  # fmt: skip
             found.append(
                 Found(int(piece.t_us[first]), int(piece.t_us[last]), int(piece.t_us[way.turned]), way.is_settled, line)
@@ -121,18 +122,3 @@ def _counted(found: Iterable[Found], first: int) -> list[Found]:
 
 def _dive(value: float) -> int | None:
     return int(value) if value > 0.0 else None
-
-
-def _mean(values: Array) -> float | None:
-    known = values[np.isfinite(values)]
-    return float(known.mean()) if known.size else None
-
-
-def _mean_longitude(values: Array) -> float | None:
-    known = values[np.isfinite(values)]
-    return mean_deg(known) if known.size else None
-
-
-def _extremes(values: Array) -> tuple[float | None, float | None]:
-    known = values[np.isfinite(values)]
-    return (float(known.min()), float(known.max())) if known.size else (None, None)

@@ -33,8 +33,7 @@ export class Feed {
       this.#ends = [];
       return;
     }
-    // what is to be looked for is not put off, and often is often enough
-    const again = (): void => void (this.#timer === undefined && this.#soon(() => void this.#refresh()));
+    const again = (): void => this.#again();
     this.#ends = KINDS.map((kind) => live.on(kind, (event) => (event.vehicle ?? vehicle) === vehicle && again()));
     this.#ends.push(live.onOpen(again));
     const states = new Map<number, string>();
@@ -63,7 +62,7 @@ export class Feed {
     if (until < before) {
       this.#number += 1;
       this.#soon(() => void this.#begin());
-    } else if (this.#timer === undefined) this.#soon(() => void this.#refresh());
+    } else this.#again();
   }
 
   async older(): Promise<void> {
@@ -80,6 +79,11 @@ export class Feed {
     clearTimeout(this.#timer);
     this.#number += 1;
     this.#ends.forEach((end) => end());
+  }
+
+  /** Looks for news; what is to be looked for is not put off by it, and often is often enough. */
+  #again(): void {
+    if (this.#timer === undefined) this.#soon(() => void this.#refresh());
   }
 
   #soon(action: () => void): void {

@@ -16,11 +16,6 @@ export function jobWords(job: Job): string {
   return `The simulator flies the plan: ${Math.round(100 * job.share)} %`;
 }
 
-/** The predicted track, point by point. */
-export function trackOf(result: PreviewResult): { latitude: number; longitude: number }[] {
-  return result.track.map((each) => ({ latitude: each.lat, longitude: each.lon }));
-}
-
 /** A line through depths; a gap where one is not known. */
 export function depthPath(
   times: number[],

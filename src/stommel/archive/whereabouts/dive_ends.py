@@ -32,8 +32,7 @@ def made_good(dive: DiveRow) -> Leg | None:
 
 
 def told_dive(dive: DiveRow) -> dict[str, Any]:
-    """A dive as the station tells it: with `distance_m`, its way made good [m], without ends that cannot be true."""
-    dive = with_true_ends(dive)
+    """A dive as the station tells it: with `distance_m`, its way made good [m]."""
     way = made_good(dive)
     return dive._asdict() | {"distance_m": None if way is None else way.distance_m}
 

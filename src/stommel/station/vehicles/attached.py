@@ -11,7 +11,7 @@ from stommel.archive import Archive, Batch, DiveRow
 from stommel.archive.readers import dive_of
 from stommel.archive.schema import dives
 from stommel.archive.times import GREATEST_TIME, microseconds
-from stommel.archive.whereabouts.dive_ends import told_dive
+from stommel.archive.whereabouts.dive_ends import told_dive, with_true_ends
 from stommel.station.live.events import Happening, Samples, Summary
 from stommel.station.live.hub import Hub
 from stommel.station.settings import VehicleSettings
@@ -80,7 +80,7 @@ class VehicleNews:
                 self._dives[k], is_known = dive, True
         if not is_known:
             self._dives.append(dive)
-            self._hub.publish(Happening("dive", self.vehicle, told_dive(dive)))
+            self._hub.publish(Happening("dive", self.vehicle, told_dive(with_true_ends(dive))))
 
     def look(self, line: VehicleLine, t: float) -> None:  # noqa: ARG002 - as every follower
         """Tell how the vehicle is, when that has changed."""

@@ -2,7 +2,8 @@
 
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -117,14 +118,11 @@ class MissionFollower:
             for other in self._of_people(line)
         ]
         states = {each.task.row.id: each.as_state for each in ended if each.task.row is not None}
-        try:
+        with self._in_doubt():
             if task.row is None:
                 self._rows.change_all(states)
             else:  # one transaction: a station that is killed here goes on with the one or with the other
                 task.row = self._rows.add(task.row._replace(until=task.until), WAITS, preview, states)
-        except ArchiveError:
-            self._is_doubtful = True
-            raise
         for each in ended:
             self._let_go(line, each.task)
             self._tell_ended(line, each)
@@ -146,11 +144,8 @@ class MissionFollower:
         if task is None:
             return False
         words = f"taken back by {user}; {self._truth(line, task)}"
-        try:
+        with self._in_doubt():
             self._write(line, EndedTask(task, CANCELLED, words, user, line.clock.now()))
-        except ArchiveError:
-            self._is_doubtful = True
-            raise
         self._let_go(line, task)
         self._note_open()
         return True
@@ -215,6 +210,15 @@ class MissionFollower:
         is_upload = self.current is not None and self.current.row is not None
         self._note_open()
         self.underway = self.current, line.end.orders.progress(t) if is_upload else None
+
+    @contextmanager
+    def _in_doubt(self) -> Iterator[None]:
+        """What is written here may be kept although the archive does not say so."""
+        try:
+            yield
+        except ArchiveError:
+            self._is_doubtful = True
+            raise
 
     def _clear_doubt(self, line: VehicleLine) -> None:
         """Let the archive say of missions what is so, whatever it has kept of a request that was told as not kept."""

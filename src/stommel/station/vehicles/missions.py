@@ -8,7 +8,7 @@ from typing import Any
 from stommel.archive import Archive
 from stommel.control.orders_file import parse_orders
 from stommel.errors import StommelError
-from stommel.plans.problems import PlanError, plan_from
+from stommel.plans.flown import geofence_of
 from stommel.station.live.events import Happening
 from stommel.station.live.hub import Hub
 from stommel.station.vehicles.asking import ask
@@ -212,7 +212,7 @@ class Missions:
 
 def _flown(row: MissionRow) -> dict[str, Any]:
     """What of a mission a map shows."""
-    fence = _geofence(row.plan)
+    fence = [{"latitude": one.latitude_deg, "longitude": one.longitude_deg} for one in geofence_of(row.plan)]
     try:
         orders, _ = parse_orders(row.orders, "orders")
     except StommelError as error:
@@ -226,12 +226,3 @@ def _flown(row: MissionRow) -> dict[str, Any]:
         for latitude, longitude in orders.waypoints
     ]  # fmt: skip
     return {"waypoints": places, "geofence": fence, "depth_m": float(orders.dives.depth)}
-
-
-def _geofence(plan: Mapping[str, Any] | None) -> Sequence[dict[str, float]]:
-    """Corners of the area that a plan may not leave; orders have none, nor has a plan that an older station kept."""
-    try:
-        corners = () if plan is None else plan_from(plan).geofence
-    except PlanError:
-        corners = ()
-    return [{"latitude": corner.latitude_deg, "longitude": corner.longitude_deg} for corner in corners]

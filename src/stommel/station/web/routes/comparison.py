@@ -11,17 +11,16 @@ from stommel.archive.whereabouts.dive_ends import with_true_ends
 from stommel.archive.whereabouts.track import BY_GPS, read_track
 from stommel.errors import FileError
 from stommel.geometry.geodesics import Place
-from stommel.mission.plan import Position
 from stommel.plans.comparison import compared
-from stommel.plans.flown import held_mission
+from stommel.plans.flown import geofence_of, held_mission
 from stommel.plans.kept_preview import KeptPreview, PlannedDive, Prediction, TrackPoint, kept_preview
 from stommel.plans.predicted_track import PredictedTrack
-from stommel.plans.problems import PlanError, plan_from
 from stommel.plans.so_far import so_far
 from stommel.plans.way import first_outside
 from stommel.station.station import Station
 from stommel.station.web.access import Viewer
 from stommel.station.web.found import Line, TheStation
+from stommel.station.web.routes.data import FlownDive
 
 router = APIRouter(prefix="/api", tags=["plans"])
 
@@ -42,22 +41,6 @@ class DiveDifference(BaseModel):
     duration_s: float | None
     distance_m: float | None
     depth_m: float | None
-    energy_j: float | None
-
-
-class FlownDive(BaseModel):
-    """A dive that the vehicle reported."""
-
-    dive: int
-    t_begin: float
-    t_end: float | None
-    latitude_begin: float | None
-    longitude_begin: float | None
-    latitude_end: float | None
-    longitude_end: float | None
-    greatest_depth_m: float | None
-    current_north_m_s: float | None
-    current_east_m_s: float | None
     energy_j: float | None
 
 
@@ -141,7 +124,7 @@ def compare_mission(_user: Viewer, line: Line, station: TheStation, job: JobName
     predicted = [] if foretold is None else [dive.model_dump() for dive in foretold.dives]
     flown = [with_true_ends(row)._asdict() for row in station.archive.dives(line.vehicle)]
     rows = compared(predicted, flown, held.begin, course)
-    corners = _corners(held.plan)
+    corners = geofence_of(held.plan)
     track = _track(station, line.vehicle, held.begin) if corners or course is not None else []
     answer = {
         "mission": held.name,
@@ -191,11 +174,3 @@ def _fixes(track: Sequence[tuple[TrackPoint, bool]], course: PredictedTrack | No
         for point, far in zip(seen, away, strict=True)
         if far is not None
     ]
-
-
-def _corners(plan: Mapping[str, Any] | None) -> Sequence[Position]:
-    """Of the geofence of the plan that is flown; none where there is no plan, or one of an older station."""
-    try:
-        return () if plan is None else plan_from(plan).geofence
-    except PlanError:
-        return ()

@@ -19,7 +19,7 @@ from stommel.archive import schema
 from stommel.archive.readers import dive_of
 from stommel.archive.times import GREATEST_TIME as LATEST
 from stommel.archive.times import microseconds
-from stommel.archive.whereabouts.dive_ends import told_dive
+from stommel.archive.whereabouts.dive_ends import told_dive, with_true_ends
 from stommel.data.files import csv_of_pieces, write_netcdf_pieces
 from stommel.data.variables import BY_NAME
 from stommel.data.water_masses import density_lines
@@ -62,8 +62,8 @@ def _records(request: Request, station: TheStation) -> SampleRecords:
 Records = Annotated[SampleRecords, Depends(_records)]
 
 
-class Dive(BaseModel):
-    """A dive as the vehicle told it, and what follows."""
+class FlownDive(BaseModel):
+    """A dive that the vehicle reported."""
 
     dive: int
     t_begin: float
@@ -76,6 +76,11 @@ class Dive(BaseModel):
     current_north_m_s: float | None
     current_east_m_s: float | None
     energy_j: float | None
+
+
+class Dive(FlownDive):
+    """A dive as the vehicle told it, and what follows."""
+
     distance_m: float | None
     """Made good: between its ends, on the ellipsoid [m]."""
 
@@ -171,7 +176,7 @@ def read_dives(line: Line, station: TheStation, _user: Viewer, begin: Begin = 0.
             .where((d.vehicle_id == line.vehicle) & d.t_begin_us.between(microseconds(begin), microseconds(end)))
             .order_by(d.t_begin_us)
         )
-        return [Dive(**told_dive(dive_of(row))) for row in rows]
+        return [Dive(**told_dive(with_true_ends(dive_of(row)))) for row in rows]
 
 
 @router.get("/vehicles/{vehicle}/profiles", dependencies=[InOrder])

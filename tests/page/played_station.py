@@ -36,9 +36,9 @@ class PlayedStation:
         """Say something on the present socket."""
         self.sockets[-1].send(json.dumps(message))
 
-    def sum_up(self, vehicle: int) -> None:
+    def sum_up(self, vehicle: int, heard: bool = True) -> None:
         """Say how a vehicle is now."""
-        self.say({"type": "summary", "vehicle": vehicle, "summary": self._summary(vehicle)})
+        self.say({"type": "summary", "vehicle": vehicle, "summary": self._summary(vehicle) | {"heard": heard}})
 
     def _hear(self, asked: list[dict[str, Any]], message: dict[str, Any]) -> None:
         asked.append(message)

@@ -1,10 +1,12 @@
 """Transfers on the page: paused, resumed, cancelled. Oracle: the bytes aboard, and what the vehicle was asked for."""
 
 import hashlib
+import re
 from typing import Any
 
 import pytest
 
+from tests.page.played_station import PlayedStation
 from tests.page.quay import FILES, LOGS, LONG, SHORT, Quay
 from tests.page.waiting import becomes, passes, until
 
@@ -74,3 +76,33 @@ def test_a_log_comes_by_itself_and_says_so(page: Any, quay: Quay, screenshot: An
     log.get_by_text("fetched by itself").wait_for()
     page.get_by_role("region", name="Files ashore").get_by_role("link", name=f"log/{LOGS[0]}").wait_for()
     screenshot("log-by-itself")
+
+
+def test_a_folder_that_a_diving_vehicle_did_not_tell_is_asked_for_when_it_is_heard_again(
+    page: Any, fake_station: str, played: PlayedStation
+) -> None:
+    """It is asked once for each time that it comes up, as far as it has not told it."""
+    asked: list[str] = []
+    entries = [{"name": "missions", "size": 0, "is_folder": True}]
+
+    def answer(route: Any) -> None:
+        asked.append(route.request.url)
+        refused = {"detail": {"reason": "vehicle 1 is not heard: it dives"}}
+        told = {"folder": "", "entries": entries}
+        route.fulfill(status=200 if len(asked) == 3 else 409, json=told if len(asked) == 3 else refused)
+
+    page.route("**/api/vehicles/1/listing*", answer)
+    page.goto(f"{fake_station}/#/vehicle/1/files")
+    for times in (1, 2):
+        page.get_by_role("button", name="Ask again").nth(1).wait_for()
+        assert len(asked) == times
+        played.sum_up(1, heard=False)
+        page.get_by_text(re.compile("^silent")).first.wait_for()
+        played.sum_up(1)
+    page.get_by_role("button", name="missions/").wait_for()
+    assert len(asked) == 3
+    played.sum_up(1, heard=False)
+    page.get_by_text(re.compile("^silent")).first.wait_for()
+    played.sum_up(1)
+    passes(page, 400)
+    assert len(asked) == 3

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import time
 import urllib.request
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -89,6 +89,35 @@ def serve(command: list[str]) -> "Iterator[tuple[subprocess.Popen[bytes], str]]"
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Tell with a failure what the page showed and what the station knew, and keep a picture: CI is not run again."""
+    report = yield
+    if report.when == "call" and report.failed:
+        found = getattr(item, "funcargs", {})
+        for title, told in seen_at_failure(item.name, found.get("page"), found.get("station")):
+            report.sections.append((title, told))
+    return report
+
+
+def seen_at_failure(name: str, page: Any, station: object) -> Iterator[tuple[str, str]]:
+    """Words of the page, and vehicle and commands of the station, as far as either still answers."""
+    if page is not None:
+        try:
+            picture = ROOT / "build" / "screenshots" / f"failed-{re.sub(r'[^A-Za-z0-9_]+', '-', name)}.png"
+            page.screenshot(path=picture)
+            yield f"page {page.url}", page.locator("body").inner_text(timeout=5_000)
+        except Exception as error:  # noqa: BLE001 - a closed page, a browser that died: the failure is told all the same
+            yield "page", f"it does not answer: {error}"
+    if isinstance(station, str):
+        for path in ("/vehicles/1", "/vehicles/1/commands", "/vehicles/1/alarms"):
+            try:
+                with urllib.request.urlopen(f"{station}/api{path}", timeout=10.0) as answer:
+                    yield f"station {path}", answer.read(20_000).decode()
+            except OSError as error:
+                yield f"station {path}", f"it does not answer: {error}"
 
 
 @pytest.fixture(scope="package")

@@ -5,6 +5,14 @@ import type { VehicleKey } from './types';
 /** Whose clock tells the times of what belongs to no vehicle. */
 export const STATION = 'station';
 
+/** A value older than the one before it by more than this [s] says that the vehicle's clock was set back. */
+const SET_BACK_S = 60;
+
+/** Whether a clock was set back between two values that came one after the other. */
+export function isSetBack(before: number, t: number): boolean {
+  return t < before - SET_BACK_S;
+}
+
 interface Told {
   now: number;
   speed: number;

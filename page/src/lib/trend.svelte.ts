@@ -1,7 +1,7 @@
 // The last stretch of one channel, for a small curve: from the archive, then on by itself.
 
 import { api } from './api';
-import { clock } from './clock.svelte';
+import { clock, isSetBack } from './clock.svelte';
 import { live } from './live.svelte';
 import type { SeriesAnswer, VehicleKey } from './types';
 
@@ -48,6 +48,7 @@ export class Trend {
 
   private add(t: number, value: number): void {
     const last = this.points.t.at(-1);
+    if (last !== undefined && isSetBack(last, t)) void this.load();
     if (last === undefined || t < last + this.span / POINTS) return;
     const first = Math.max(0, this.points.t.findIndex((one) => one > t - this.span));
     this.points = { t: [...this.points.t.slice(first), t], value: [...this.points.value.slice(first), value] };

@@ -59,17 +59,18 @@ class Rows(CommandRows):
 
         self._commit(keep)
 
-    def change(self, id: str, state: str, words: str, t: float) -> bool:
+    def change(self, id: str, state: str, words: str, t: float) -> CommandRow | None:
         """Keep a state."""
 
-        def keep() -> bool:
+        def keep() -> CommandRow | None:
             if id not in self._sea.rows:
-                return False
-            self._sea.rows[id] = self._sea.rows[id]._replace(state=state, words=words, changed=t)
+                return None
+            found = self._sea.rows[id] = self._sea.rows[id]._replace(state=state, words=words, changed=t)
             self._sea.told(id, state)
-            return True
+            return found
 
-        return bool(self._commit(keep))
+        kept: CommandRow | None = self._commit(keep)
+        return kept
 
     def find(self, vehicle: int, id: str) -> CommandRow | None:
         """Look a row up."""

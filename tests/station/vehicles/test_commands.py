@@ -12,6 +12,7 @@ from stommel.link.commands.port import Answer, Readiness
 from stommel.link.commands.states import Progress, State, When
 from stommel.link.commands.table import ABORT, HOLD, CommandError
 from stommel.station.station import Station
+from stommel.station.vehicles.command_rows import CommandRow
 from tests.station.client import Client
 from tests.station.served import served
 from tests.station.speaker import until
@@ -39,6 +40,28 @@ def test_a_command_is_followed_until_the_vehicle_has_said_its_last_word(tmp_path
         assert states[-1] == "done"
         assert vehicle.port.numbers == [HOLD]
         assert row["expires"] - row["given"] == pytest.approx(300.0, abs=0.5)
+
+
+def test_what_becomes_of_a_command_is_never_told_as_before_it_was_given_though_the_clock_is_set_back(
+    tmp_path: Path,
+) -> None:
+    """A simulation that falls behind sets the clock of its world back; who watches takes the row that changed last.
+
+    Oracle: the order in which it happened.
+    """
+    with served() as vehicle, station(tmp_path, vehicle.address) as found:
+        vehicle.under_water = True
+        row = found.commands.find(1, give(found))
+        told: list[CommandRow] = [row]
+        found.commands._followers[1]._tell = told.append
+        found.vehicles[1].clock._offset = -900.0
+        vehicle.under_water = False
+        until(lambda: state(found, row.id) == "done")
+        until(lambda: told[-1].state == "done")
+        history = found.commands.history(row.id)
+        assert [each.state for each in told][-1] == history[-1][1] == "done"
+        assert [each.changed for each in told] == sorted({each.changed for each in told})
+        assert [t for t, _, _ in history] == sorted({t for t, _, _ in history})
 
 
 def test_a_command_waits_for_the_vehicle_over_a_restart_of_the_station(tmp_path: Path) -> None:

@@ -2,7 +2,7 @@
 
 import { untrack } from 'svelte';
 import { api } from '../api';
-import { clock } from '../clock.svelte';
+import { clock, isSetBack } from '../clock.svelte';
 import { live } from '../live.svelte';
 import type { DiveRow, LayerRow, MissionAboard, Position, Track, VehicleKey } from '../types';
 import { course, quantity, velocity } from '../units';
@@ -73,6 +73,7 @@ export class MapContent {
   /** Goes on with a position that the station has just told, which has sifted it. */
   take(position: Position | null | undefined): void {
     const last = this.track.at(-1);
+    if (position && last && isSetBack(last.t, position.t)) void this.load();
     if (!position || !last || !this.span || position.t <= last.t) return;
     this.span = [this.span[0], position.t];
     if (Math.abs(last.latitude - position.latitude) + Math.abs(last.longitude - position.longitude) <= NEAR_DEG) return;

@@ -1,5 +1,6 @@
 // From the answers of the archive, and what came since, to what is drawn.
 
+import { isSetBack } from '../../lib/clock.svelte';
 import type { Line } from '../../lib/turns';
 
 export interface Trace extends Line {
@@ -44,13 +45,20 @@ export function gapAfter(period_s: number | null | undefined): number {
 /** The archive keeps whole microseconds: times that are nearer than that are one. */
 export const SAME_S = 1.5e-6;
 
-/** The trace with later samples behind it; a null between two that are too far apart; older ones than begin fall off. */
+/**
+ * The trace with later samples behind it; a null between two that are too far apart; older ones than begin fall off.
+ * Where the vehicle's clock was set back, what lies ahead of it falls off too: the archive has it.
+ */
 export function extended(
   trace: Trace | undefined, t: readonly number[], value: readonly (number | null)[], begin: number, gap_s: number,
 ): Trace {
   const times = trace ? [...trace.t] : [];
   const values = trace ? [...trace.value] : [];
   t.forEach((time, index) => {
+    while (isSetBack(times.at(-1) ?? time, time)) {
+      times.pop();
+      values.pop();
+    }
     const last = times.at(-1);
     if (last !== undefined && time <= last + SAME_S) return;
     if (last !== undefined && time - last > gap_s && values.at(-1) !== null) {

@@ -158,21 +158,21 @@ class CommandFollower:
             self._left.pop()
 
     def _end(self, row: CommandRow, state: str, words: str, t: float) -> None:
-        if self._rows.change(row.id, state, words, t):
-            self._tell(row._replace(state=state, words=words, changed=t))
+        if (ended := self._rows.change(row.id, state, words, t)) is not None:
+            self._tell(ended)
 
     def _write(self, line: VehicleLine, report: Report, told: tuple[str, str], t: float) -> None:
         id, now = f"{report.id:016x}", line.clock.now()
-        before = self._rows.find(line.vehicle, id)
+        row = before = self._rows.find(line.vehicle, id)
         if before is None:
-            self._rows.add(_foreign(line, report, now))
+            row = _foreign(line, report, now)
+            self._rows.add(row)
         elif before.state == NOT_SENT and not report.sent and not report.is_last:
             line.end.commands.cancel(report.id, t)  # a disk that seemed not to keep it has kept it
             return  # the next look sees whether the disk has that
-        if before is not None and (before.state, before.words) != told:
-            self._rows.change(id, *told, now)
+        elif (before.state, before.words) != told:
+            row = self._rows.change(id, *told, now)
         self._written[report.id] = told
-        row = self._rows.find(line.vehicle, id)
         if row is not None and row != before:
             self._tell(row)
 

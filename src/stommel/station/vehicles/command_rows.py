@@ -58,15 +58,23 @@ class CommandRows:
             connection.execute(commands.insert().values(_stored(row)))
             _note(connection, row.id, row.changed, row.state, row.words)
 
-    def change(self, id: str, state: str, words: str, t: float) -> bool:
-        """Write what became of a command, a new state to its history too; whether there is such a command."""
+    def change(self, id: str, state: str, words: str, t: float) -> CommandRow | None:
+        """Write what became of a command, a new state to its history too; the row as it is then, None if there is none.
+
+        What is said of a command comes after what was said of it before, though the vehicle's clock be set back
+        meanwhile: who follows it takes the row that changed last.
+        """
+        mine = commands.c.id == id
         with self._archive.writing() as connection:
-            before = connection.execute(select(commands.c.state).where(commands.c.id == id)).scalar_one_or_none()
-            told = {"state": state, "outcome": words, "changed_us": microseconds(t)}
-            connection.execute(commands.update().where(commands.c.id == id).values(told))
-            if before is not None and before != state:
-                _note(connection, id, t, state, words)
-            return before is not None
+            before = connection.execute(select(commands.c.state, commands.c.changed_us).where(mine)).one_or_none()
+            if before is None:
+                return None
+            changed_us = max(microseconds(t), before.changed_us + 1)
+            told = {"state": state, "outcome": words, "changed_us": changed_us}
+            connection.execute(commands.update().where(mine).values(told))
+            if before.state != state:
+                _note(connection, id, seconds(changed_us), state, words)
+            return _read(connection.execute(select(commands).where(mine)).one())
 
     def find(self, vehicle: int, id: str) -> CommandRow | None:
         """A command of a vehicle; None if there is none."""

@@ -7,7 +7,9 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 PAGE := src/stommel/station/built/index.html
 PAGE_SOURCES := $(shell find page -name node_modules -prune -o -type f -print)
 REPORT := build/zju-design.html
-REPORT_SOURCES := $(shell find src/stommel -path src/stommel/station/built -prune -o -name __pycache__ -prune -o -type f -print)
+SOURCES := $(shell find src/stommel -path src/stommel/station/built -prune -o -name __pycache__ -prune -o -type f -print)
+
+COMPILED := $(VENV)/compiled.stamp
 
 .PHONY: help setup page page-check types run test check format bench docs dist clean
 
@@ -60,7 +62,7 @@ types: page/node_modules/.package-lock.json
 	$(BIN)/python page/npm.py run --silent types
 
 # the same sources make the same report
-$(REPORT): $(VENV)/run.stamp $(REPORT_SOURCES)
+$(REPORT): $(VENV)/run.stamp $(SOURCES)
 	$(BIN)/stommel design zju --output $@
 
 # each launch is a flight of its own, with an archive of its own
@@ -84,9 +86,16 @@ page-check: $(PAGE)
 	$(BIN)/python page/npm.py run --silent check
 	$(BIN)/python page/npm.py run --silent test
 
-# neither check uses more than one core
+# machine code that most tests run: made once, not by each of several workers side by side
+$(COMPILED): $(VENV)/test.stamp $(SOURCES)
+	$(BIN)/stommel sitl fly pool_trial --json >/dev/null
+	$(BIN)/stommel simulate pool_trial --json >/dev/null
+	$(BIN)/stommel design zju --no-report --json >/dev/null
+	@touch $@
+
+# none of these uses more than one core
 test: $(VENV)/test.stamp
-	@$(MAKE) --no-print-directory --jobs=2 check page-check
+	@$(MAKE) --no-print-directory --jobs=3 check page-check $(COMPILED)
 	$(BIN)/python -m pytest --numprocesses auto --dist loadscope --no-loadscope-reorder
 
 bench: $(VENV)/test.stamp $(PAGE)

@@ -21,6 +21,7 @@ import pytest
 
 import stommel
 from tests.page.waiting import PATIENCE_S, Traffic, until
+from tests.support.chromium import chromium
 
 if TYPE_CHECKING:
     from tests.page.past import Past
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILT = Path(stommel.__file__).parent / "station" / "built" / "index.html"
-CHROMIUM = Path("/usr/bin/chromium")
 ARGUMENTS = [
     "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync", "--js-flags=--expose-gc",
@@ -164,13 +164,14 @@ def heard(address: str, seconds: float = 600.0) -> None:
 def browser() -> "Iterator[object]":
     """Debian's Chromium without a window; while it is there, no other event loop runs in this thread."""
     sync_api = pytest.importorskip("playwright.sync_api")
-    if not CHROMIUM.exists():
-        pytest.skip(f"no Chromium at {CHROMIUM}")
+    program = chromium()
+    if program is None:
+        pytest.skip("no Chromium: chromium-headless-shell or chromium of Debian")
     sync_api.expect.set_options(timeout=1e3 * PATIENCE_S)
     with sync_api.sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=str(CHROMIUM), args=ARGUMENTS)
-        yield chromium
-        chromium.close()
+        launched = playwright.chromium.launch(executable_path=str(program), args=ARGUMENTS)
+        yield launched
+        launched.close()
 
 
 @pytest.fixture

@@ -4,10 +4,11 @@ Its disk is full while a test wants that.
 """
 
 import hashlib
+import sqlite3
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -42,12 +43,16 @@ class Quay(NamedTuple):
     vehicle: Served
     begin: float
     """When the mission began [s since 1970]."""
+    archive: Path
+    """The file of its archive."""
     full: Path
     """While this file is there, the disk is full."""
 
     @contextmanager
     def full_disk(self) -> Iterator[None]:
-        """Leave the archive no room until the block ends."""
+        """Leave the archive no room until the block ends, nor in pages of it that others have left."""
+        with closing(sqlite3.connect(self.archive, timeout=60.0)) as archive:
+            archive.execute("VACUUM")
         self.full.touch()
         try:
             yield
@@ -86,7 +91,8 @@ def fill(database: str, begin: float) -> None:
 def quay_station(folder: Path) -> Iterator[Quay]:
     """The station until the block ends."""
     begin = float(int(time.time())) - 3.0 * HOUR
-    database, full = f"sqlite:///{folder / 'archive.sqlite'}", folder / "full"
+    archive, full = folder / "archive.sqlite", folder / "full"
+    database = f"sqlite:///{archive}"
     fill(database, begin)
     with served(RATE) as vehicle:
         vehicle.missions.files = [BEFORE.encode(), NOW.encode()]
@@ -99,5 +105,5 @@ def quay_station(folder: Path) -> Iterator[Quay]:
         program = [sys.executable, "-m", "tests.page.narrow_disk", str(full)]
         told = ["--folder", str(folder), "--database", database, "--settings", str(settings), "--port", "0"]
         for process, address in serve([*program, "station", *told]):
-            yield Quay(address, vehicle, begin, full)
+            yield Quay(address, vehicle, begin, archive, full)
             assert process.poll() is None, "the station ended during the test"

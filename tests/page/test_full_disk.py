@@ -42,7 +42,7 @@ def test_a_full_disk_is_told_with_what_to_do_and_an_abort_goes_out(page: Any, qu
         note = page.get_by_role("textbox", name="Note")
         note.fill(NOTE)
         note.press("Control+Enter")
-        page.get_by_text(REASON).first.wait_for()
+        page.get_by_role("alert").filter(has_text=REASON).first.wait_for()
         assert note.input_value() == NOTE, "what was typed is not lost"
 
         page.get_by_role("button", name="Abort", exact=True).click()

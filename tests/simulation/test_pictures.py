@@ -3,7 +3,6 @@
 import base64
 import json
 import re
-import shutil
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -26,6 +25,7 @@ from stommel.simulation.pictures.extracts import band
 from stommel.simulation.results.dataset import dataset_of, write_netcdf
 from stommel.simulation.results.summary import summary
 from tests.simulation.conftest import flown
+from tests.support.chromium import chromium
 
 FIGURES = (actuators_figure, ctd_figure, energy_figure, map_figure, sawtooth_figure, trial_figure)
 
@@ -260,13 +260,13 @@ def test_what_is_far_is_told_from_the_end_not_from_the_nearest_approach(cornered
     assert f"<td>{nearest:.1f} km</td><td>{away:.1f} km</td>" in html
 
 
-@pytest.mark.skipif(shutil.which("chromium") is None, reason="needs Chromium")
+@pytest.mark.skipif(chromium() is None, reason="needs Chromium")
 def test_page_draws_itself_in_a_browser(cornered: xr.Dataset, tmp_path: Path) -> None:
     """The script runs to its end: curves, map and the phases' names are made by it."""
     page = tmp_path / "mission.html"
     page.write_text(interactive_page(cornered), encoding="utf-8")
     done = subprocess.run(
-        ["chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}",
+        [chromium(), "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}",
          "--virtual-time-budget=2000", "--dump-dom", page.as_uri()],
         capture_output=True, text=True, check=True, timeout=120,
     )  # fmt: skip

@@ -27,8 +27,6 @@ _RANGES = {
 
 PRINTABLE = r"^[^\x00-\x1f\x7f]*$"
 """A name without control characters: no system opens the first of them, and the others are not seen."""
-_ENTRY = r"^(\d{1,17})-(alarm|command|dive|hold|limit|mission|note|parameter|text|transfer)-([0-9a-f]{1,16})$"
-"""Of the log book."""
 _PATTERNS = {
     r"^[A-Za-z]\w*$": "must begin with a letter, and go on with letters, digits and _",
     "^[A-Za-z][A-Za-z0-9_-]*$": "must begin with a letter, and go on with letters, digits, _ and -",
@@ -38,10 +36,16 @@ _PATTERNS = {
     "^[A-Z0-9_]{1,16}$": "must be the name of a parameter, 1 to 16 capital letters, digits and _",
     "^[0-9a-f]{16}$": "must be the id of a command, 16 digits and letters a to f",
     "^[0-9a-f]+$": "must be digits and letters a to f, as the station has told it",
-    _ENTRY: "must be the `next` of the page before",
     "^[A-Za-z0-9.:_-]+$": "must be the name or address of a computer: letters, digits, and . : _ -",
 }
 """What each pattern of a text means: nobody is shown one."""
+
+
+def pattern_of(pattern: str, meaning: str) -> str:
+    """Return a pattern, whose meaning is told to whoever writes what it does not allow."""
+    _PATTERNS[pattern] = meaning
+    return pattern
+
 
 _PLAIN = {
     **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),

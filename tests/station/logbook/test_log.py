@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 from pyproj import Geod
@@ -10,7 +10,7 @@ from sqlalchemy import insert
 
 from stommel.archive import Batch, DiveRow
 from stommel.archive.schema import alarms, commands, files, missions, parameter_writes
-from stommel.station.logbook.feed import page_of
+from stommel.station.logbook.feed import SOURCES, Kind, page_of
 from stommel.station.logbook.notes import Notes
 from stommel.station.people.holders import Hold, taking
 from stommel.station.people.roles import Role
@@ -35,6 +35,10 @@ def station(tmp_path: Path) -> Iterator[Station]:
 @pytest.fixture
 def client(station: Station) -> Client:
     return Client(station)
+
+
+def test_every_kind_of_entry_has_a_source() -> None:
+    assert list(get_args(Kind)) == list(SOURCES)
 
 
 def filled(station: Station) -> None:

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Collection
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from sqlalchemy import ColumnElement, Row, String, Table, and_, cast, false, literal, or_, select, true
 
@@ -12,14 +12,18 @@ from stommel.archive.readers import dive_of
 from stommel.archive.schema import alarms, commands, dives, files, missions, notes, parameter_writes, texts
 from stommel.archive.times import microseconds, seconds
 from stommel.archive.whereabouts.dive_ends import with_true_ends
+from stommel.files.sentences import pattern_of
 from stommel.station.logbook.searching import has_words
 from stommel.station.logbook.told import Told, known_then, told_of
+
+Kind = Literal["alarm", "command", "dive", "hold", "limit", "mission", "note", "parameter", "text", "transfer"]
+"""Of an entry."""
 
 
 class Entry(NamedTuple):
     """Something in the log book; times are those of the vehicle [s since 1970]."""
 
-    kind: str
+    kind: Kind
     id: str
     vehicle: int | None
     """None: of the station, by whose clock the time then is."""
@@ -97,7 +101,7 @@ def _with(words: str, more: str | None) -> str:
     return f"{words}: {more}" if more else words
 
 
-SOURCES: dict[str, _Source] = {
+SOURCES: dict[Kind, _Source] = {
     "alarm": _Source(alarms, "raised_us", ("words", "note", "acknowledged_by"), _alarm, is_also_of_station=True),
     "command": _Source(commands, "given_us", ("name", "outcome", "user"), _command),
     "dive": _Source(dives, "t_begin_us", (literal("Dive ") + cast(dives.c.dive, String),), _dive, number="dive"),
@@ -111,7 +115,9 @@ SOURCES: dict[str, _Source] = {
 }
 """Where entries come from; at equal times in this order."""
 
-CURSOR = rf"^(\d{{1,17}})-({'|'.join(SOURCES)})-([0-9a-f]{{1,16}})$"
+CURSOR = pattern_of(
+    rf"^(\d{{1,17}})-({'|'.join(SOURCES)})-([0-9a-f]{{1,16}})$", "must be the `next` of the page before"
+)
 """Of a page: time, kind and number of the last entry."""
 
 
@@ -127,7 +133,7 @@ def page_of(
     archive: Archive,
     vehicle: int,
     *,
-    kinds: Collection[str] = tuple(SOURCES),
+    kinds: Collection[Kind] = tuple(SOURCES),
     search: str = "",
     severity: int = len(SEVERITIES) - 1,
     until: float | None = None,
@@ -178,7 +184,7 @@ def _searched(source: _Source, one: str | ColumnElement[str]) -> ColumnElement[s
     return source.table.c[one] if isinstance(one, str) else one
 
 
-def _entry(kind: str, source: _Source, row: Row[Any], until: float | None) -> tuple[int, str, str, Entry]:
+def _entry(kind: Kind, source: _Source, row: Row[Any], until: float | None) -> tuple[int, str, str, Entry]:
     """Time, kind and number of an entry, which are its place in the list, and the entry."""
     t_us, number, told = row._mapping[source.time], str(row._mapping[source.number]), source.told(row)
     id = number

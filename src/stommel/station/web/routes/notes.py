@@ -1,6 +1,6 @@
 """The log book: notes of people, beside them dives, what people did, alarms, and what the vehicle said."""
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from fastapi import APIRouter, Query
 from pydantic import BaseModel, ConfigDict, Field
@@ -9,7 +9,7 @@ from stommel.archive.times import GREATEST_TIME
 from stommel.archive.whereabouts.dive_ends import told_dive
 from stommel.files.sentences import PRINTABLE
 from stommel.station.live.events import Happening
-from stommel.station.logbook.feed import CURSOR, SOURCES, Entry, page_of
+from stommel.station.logbook.feed import CURSOR, SOURCES, Entry, Kind, page_of
 from stommel.station.logbook.notes import Notes
 from stommel.station.web.access import Pilot, Viewer
 from stommel.station.web.errors import refusal
@@ -22,7 +22,6 @@ GREATEST_NUMBER = (1 << 53) - 1
 """Of a row; beyond it JSON's numbers are not exact."""
 _AHEAD = 60.0
 """A note may be of a time so far ahead, for two clocks never agree [s]."""
-Kind = Literal["alarm", "command", "dive", "hold", "limit", "mission", "note", "parameter", "text", "transfer"]
 Search = Annotated[str, Query(max_length=200, pattern=PRINTABLE, description="Words that must be in it.")]
 
 

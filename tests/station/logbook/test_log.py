@@ -37,6 +37,14 @@ def client(station: Station) -> Client:
     return Client(station)
 
 
+@pytest.mark.parametrize("before", ["x", "1700000000000000-door-1", "-note-1", "1-note-"])
+def test_a_page_that_is_none_is_refused_in_words(client: Client, before: str) -> None:
+    refused = client.refused("GET", "/vehicles/1/log", 422, params={"before": before})
+    assert refused["key"] == "before"
+    assert "must be the `next` of the page before" in str(refused)
+    assert "(" not in str(refused), "nobody is shown a pattern"
+
+
 def test_every_kind_of_entry_has_a_source() -> None:
     assert list(get_args(Kind)) == list(SOURCES)
 

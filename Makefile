@@ -8,7 +8,6 @@ PAGE := src/stommel/station/built/index.html
 PAGE_SOURCES := $(shell find page -name node_modules -prune -o -type f -print)
 REPORT := build/zju-design.html
 SOURCES := $(shell find src/stommel -path src/stommel/station/built -prune -o -name __pycache__ -prune -o -type f -print)
-
 COMPILED := $(VENV)/compiled.stamp
 
 .PHONY: help setup page page-check types run test check format bench docs dist clean

@@ -14,6 +14,7 @@ import tempfile
 import time
 import urllib.request
 from collections.abc import Callable, Generator, Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -102,17 +103,25 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestR
     return report
 
 
+def keep_picture(page: Any, name: str) -> Path:
+    """Keep a picture of the page in build/screenshots; where it is."""
+    folder = ROOT / "build" / "screenshots"
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{name}.png"
+    page.screenshot(path=path)
+    return path
+
+
 def seen_at_failure(name: str, page: Any, station: object) -> Iterator[tuple[str, str]]:
-    """Words of the page, and vehicle and commands of the station, as far as either still answers."""
+    """Words of the page, and vehicle, commands and alarms of the station, as far as either still answers."""
     if page is not None:
         try:
-            picture = ROOT / "build" / "screenshots" / f"failed-{re.sub(r'[^A-Za-z0-9_]+', '-', name)}.png"
-            page.screenshot(path=picture)
+            keep_picture(page, f"failed-{re.sub(r'[^A-Za-z0-9_]+', '-', name)}")
             yield f"page {page.url}", page.locator("body").inner_text(timeout=5_000)
         except Exception as error:  # noqa: BLE001 - a closed page, a browser that died: the failure is told all the same
             yield "page", f"it does not answer: {error}"
     if isinstance(station, str):
-        for path in ("/vehicles/1", "/vehicles/1/commands", "/vehicles/1/alarms"):
+        for path in ("/vehicles/1", "/vehicles/1/commands", "/alarms"):
             try:
                 with urllib.request.urlopen(f"{station}/api{path}", timeout=10.0) as answer:
                     yield f"station {path}", answer.read(20_000).decode()
@@ -197,15 +206,7 @@ def page(browser, request: pytest.FixtureRequest):
 @pytest.fixture
 def screenshot(page) -> Screenshot:
     """Keeps a picture of the page in build/screenshots, which CI keeps and people look at."""
-    folder = ROOT / "build" / "screenshots"
-    folder.mkdir(parents=True, exist_ok=True)
-
-    def keep(name: str) -> Path:
-        path = folder / f"{name}.png"
-        page.screenshot(path=path)
-        return path
-
-    return keep
+    return partial(keep_picture, page)
 
 
 @pytest.fixture

@@ -8,9 +8,10 @@ export const STATION = 'station';
 /** A value older than the one before it by more than this [s] says that the vehicle's clock was set back. */
 const SET_BACK_S = 60;
 
-/** Whether a clock was set back between two values that came one after the other. */
-export function isSetBack(before: number, t: number): boolean {
-  return t < before - SET_BACK_S;
+/** How many values stay, by their times, when one of time t comes: where the clock was set back, those before t. */
+export function staying(times: readonly number[], t: number): number {
+  const last = times.at(-1);
+  return last !== undefined && t < last - SET_BACK_S ? times.findIndex((one) => one >= t) : times.length;
 }
 
 interface Told {

@@ -1,7 +1,7 @@
 // The last stretch of one channel, for a small curve: from the archive, then on by itself.
 
 import { api } from './api';
-import { clock, isSetBack } from './clock.svelte';
+import { clock, staying } from './clock.svelte';
 import { live } from './live.svelte';
 import type { SeriesAnswer, VehicleKey } from './types';
 
@@ -47,11 +47,12 @@ export class Trend {
   }
 
   private add(t: number, value: number): void {
-    const last = this.points.t.at(-1);
-    if (last !== undefined && isSetBack(last, t)) void this.load();
-    if (last === undefined || t < last + this.span / POINTS) return;
+    if (this.points.t.length === 0) return;
+    const end = staying(this.points.t, t);
+    const last = this.points.t[end - 1];
+    if (last !== undefined && t < last + this.span / POINTS) return;
     const first = Math.max(0, this.points.t.findIndex((one) => one > t - this.span));
-    this.points = { t: [...this.points.t.slice(first), t], value: [...this.points.value.slice(first), value] };
+    this.points = { t: [...this.points.t.slice(first, end), t], value: [...this.points.value.slice(first, end), value] };
   }
 
   /** Asks the archive again, for instance since a replay has jumped. */

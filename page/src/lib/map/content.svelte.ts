@@ -2,7 +2,7 @@
 
 import { untrack } from 'svelte';
 import { api } from '../api';
-import { clock, isSetBack } from '../clock.svelte';
+import { clock, staying } from '../clock.svelte';
 import { live } from '../live.svelte';
 import type { DiveRow, LayerRow, MissionAboard, Position, Track, VehicleKey } from '../types';
 import { course, quantity, velocity } from '../units';
@@ -72,9 +72,14 @@ export class MapContent {
 
   /** Goes on with a position that the station has just told, which has sifted it. */
   take(position: Position | null | undefined): void {
+    if (!position || !this.span) return;
+    const end = staying(this.track.map((one) => one.t), position.t);
+    if (end < this.track.length) {
+      this.track = this.track.slice(0, end);
+      void this.load();
+    }
     const last = this.track.at(-1);
-    if (position && last && isSetBack(last.t, position.t)) void this.load();
-    if (!position || !last || !this.span || position.t <= last.t) return;
+    if (!last || position.t <= last.t) return;
     this.span = [this.span[0], position.t];
     if (Math.abs(last.latitude - position.latitude) + Math.abs(last.longitude - position.longitude) <= NEAR_DEG) return;
     const { latitude, longitude, t, sigma_m, source } = position;

@@ -17,4 +17,6 @@ it('goes on from where a clock was set back to', () => {
   const found = extended(trace, [1020, 1030], [5, 6], 0, Infinity);
   expect([found.t, found.value]).toEqual([[1000, 1010, 1020, 1030], [1, 2, 5, 6]]);
   expect(extended(trace, [10], [5], 0, Infinity).t).toEqual([10]);
+  const dense: Trace = { ...trace, t: [1000, 1010, 1030, 1200], value: [1, 2, 3, 4] };
+  expect(extended(dense, [1020], [5], 0, Infinity).t).toEqual([1000, 1010, 1020]);
 });

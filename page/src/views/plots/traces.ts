@@ -1,6 +1,6 @@
 // From the answers of the archive, and what came since, to what is drawn.
 
-import { isSetBack } from '../../lib/clock.svelte';
+import { staying } from '../../lib/clock.svelte';
 import type { Line } from '../../lib/turns';
 
 export interface Trace extends Line {
@@ -55,10 +55,7 @@ export function extended(
   const times = trace ? [...trace.t] : [];
   const values = trace ? [...trace.value] : [];
   t.forEach((time, index) => {
-    while (isSetBack(times.at(-1) ?? time, time)) {
-      times.pop();
-      values.pop();
-    }
+    times.length = values.length = staying(times, time);
     const last = times.at(-1);
     if (last !== undefined && time <= last + SAME_S) return;
     if (last !== undefined && time - last > gap_s && values.at(-1) !== null) {

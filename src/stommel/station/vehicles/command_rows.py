@@ -71,10 +71,10 @@ class CommandRows:
                 return None
             changed_us = max(microseconds(t), before.changed_us + 1)
             told = {"state": state, "outcome": words, "changed_us": changed_us}
-            connection.execute(commands.update().where(mine).values(told))
+            row = connection.execute(commands.update().where(mine).values(told).returning(commands)).one()
             if before.state != state:
                 _note(connection, id, seconds(changed_us), state, words)
-            return _read(connection.execute(select(commands).where(mine)).one())
+            return _read(row)
 
     def find(self, vehicle: int, id: str) -> CommandRow | None:
         """A command of a vehicle; None if there is none."""
